@@ -42,6 +42,10 @@ void print_limits(bool json) {
     throw Error(ErrorKind::bad_input,
                 "error: fit is a command of the Python package\n  expected python3 -m tofray fit PROFILE FILE --free KEYS; it needs numpy "
                 "and scipy");
+  if (word == "dask")
+    throw Error(ErrorKind::bad_input,
+                "error: dask is a command of the Python package\n  expected python3 -m tofray dask FOLDER --scheduler ADDRESS; it needs "
+                "Debian's python3-distributed");
   std::vector<std::string> names;
   for (const Command& command : all_commands()) {
     if (!command.hidden) names.emplace_back(command.name);

@@ -45,6 +45,8 @@ class Dataset {
   [[nodiscard]] std::vector<Drawn> drawn(std::uint64_t sample, std::uint64_t view = 0) const;
   /// Seed of the noise of its frames (FrameRequest::seed, `--seed`): another one for each sample and view, so that no two have the same noise.
   [[nodiscard]] std::uint64_t noise_seed(std::uint64_t sample, std::uint64_t view = 0) const;
+  /// "train", "validation" or "test": what the set's `split` makes of the sample's number, before anything else is drawn; "train" without `split`.
+  [[nodiscard]] std::string split(std::uint64_t sample) const;
 
  private:
   struct Impl;

@@ -130,6 +130,8 @@ VerifyResult verify_shards(const VerifyRequest& request, const ShardWatch& watch
 struct MergeResult {
   std::uint64_t shards = 0, samples = 0, holes = 0, bytes = 0;
   std::uint64_t pixels = 0, valid = 0;
+  /// Keys whose values miss the law that they are drawn by (χ² that right draws exceed once in a million times), and by how much; empty where none does.
+  std::string missed_laws;
   std::vector<std::string>
       files;  ///< that were written: SHA256SUMS, statistics.json, wids.json, card.md, croissant.json, preview.html, index/…
 };

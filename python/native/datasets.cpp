@@ -34,7 +34,8 @@ void bind_datasets(py::module_& module) {
              for (const Drawn& one : set.drawn(sample, view)) out.append(py::make_tuple(one.path, one.form, one.text, one.value));
              return out;
            })
-      .def("noise_seed", &Dataset::noise_seed);
+      .def("noise_seed", &Dataset::noise_seed)
+      .def("split", &Dataset::split);
 }
 
 }  // namespace tofray::python

@@ -195,6 +195,26 @@ class Dataset:
         """
         return self._set.noise_seed(self._number(sample), view)
 
+    def split(self, sample: int) -> str:
+        """What a sample is for, by the set's ``split``: it follows from the sample's number, before anything else is drawn.
+
+        Parameters
+        ----------
+        sample : int
+            From 0; negative: from the end.
+
+        Returns
+        -------
+        str
+            ``train``, ``validation`` or ``test``; ``train`` where the set has no ``split``.
+
+        Raises
+        ------
+        IndexError
+            For a sample that is not there.
+        """
+        return self._set.split(self._number(sample))
+
     def frame(self, sample: int, view: int = 0, **options: Any) -> Frame:
         """The frame of a sample: what ``tofray render`` makes of its scene with its seed.
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _NO_SHARD = 0xFFFFFFFF
+_SPLITS = ("train", "validation", "test")
 _MOST_OPEN = 64  # shards in memory's map at once
 
 
@@ -47,14 +48,21 @@ class Samples:
         Where ``tofray dataset plan`` wrote.
     computed : bool or None
         Whether samples are computed when they are asked for; None: where the set is not merged.
+    split : str or None
+        ``train``, ``validation`` or ``test``: ``rows``, ``order`` and ``stream`` have these samples alone.
 
     Raises
     ------
     Error
         Where there is no plan, the set is another one than at the plan, or samples are to come out of shards that are not merged.
+    ValueError
+        For a split that is none.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], computed: bool | None = None) -> None:
+    def __init__(self, folder: str | os.PathLike[str], computed: bool | None = None, split: str | None = None) -> None:
+        if split is not None and split not in _SPLITS:
+            raise ValueError(f"split: got {split!r}, expected {', '.join(_SPLITS)} or None")
+        self._split = split
         self._folder = pathlib.Path(folder)
         try:
             self._plan: dict[str, Any] = json.loads((self._folder / "plan.json").read_text(encoding="utf-8"))
@@ -65,6 +73,7 @@ class Samples:
             raise BadInput(f"{self._folder}: error: its shards are not merged\n  expected `tofray dataset merge {self._folder}` before")
         self._computed = computed if computed is not None else not merged
         self._set: Dataset | None = None
+        self._rows: NDArray[np.int64]
         self._maps: collections.OrderedDict[int, np.memmap[Any, np.dtype[np.uint8]]] = collections.OrderedDict()
         self._read_index()
 
@@ -72,11 +81,16 @@ class Samples:
         index = self._folder / "index"
         if self._computed:
             self._set = self._planned_set()
-            self._rows = np.arange(self._plan["samples"] * self._plan["views"], dtype=np.int64)
+            samples, views = self._plan["samples"], self._plan["views"]
+            there = range(samples) if self._split is None else [i for i in range(samples) if self._set.split(i) == self._split]
+            self._rows = (np.asarray(there, np.int64)[:, None] * views + np.arange(views)).ravel()
             return
         self._members = json.loads((index / "index.json").read_text(encoding="utf-8"))["members"]
         self._shard, self._offset, self._bytes = (np.load(index / f"{name}.npy", mmap_mode="r") for name in ("shard", "offset", "bytes"))
-        self._rows = np.flatnonzero(self._shard != _NO_SHARD)
+        there = self._shard != _NO_SHARD
+        if self._split is not None:
+            there &= np.load(index / "split.npy", mmap_mode="r") == _SPLITS.index(self._split)
+        self._rows = np.flatnonzero(there)
 
     def _planned_set(self) -> Dataset:
         from . import __version__
@@ -93,10 +107,10 @@ class Samples:
         return f"<tofray.Samples of {self._folder}: {len(self)}, {'computed' if self._computed else 'stored'}>"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"folder": self._folder, "computed": self._computed}
+        return {"folder": self._folder, "computed": self._computed, "split": self._split}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__init__(state["folder"], state["computed"])  # type: ignore[misc]
+        self.__init__(state["folder"], state["computed"], state["split"])  # type: ignore[misc]
 
     def __len__(self) -> int:
         """How many rows there are, holes among them."""
@@ -109,7 +123,7 @@ class Samples:
 
     @property
     def rows(self) -> NDArray[np.int64]:
-        """Rows that are there: all but holes and shards that are missing. Where samples are computed, holes are not known before."""
+        """Rows that are there, of the split that was asked for: all but holes and shards that are missing. Where samples are computed, holes are not known before."""
         return self._rows
 
     def __getitem__(self, row: int) -> dict[str, Any]:
@@ -124,7 +138,7 @@ class Samples:
         frame = self._set.frame(sample, view, arrays=self.arrays, threads=1)
         of_frame = frame.to_dict()
         arrays: dict[str, Any] = {name: of_frame[name] for name in self.arrays}
-        arrays["json"] = {"sample": sample, "view": view, "set": self._set.name, "seed": self._set.noise_seed(sample, view),
+        arrays["json"] = {"sample": sample, "view": view, "split": self._set.split(sample), "set": self._set.name, "seed": self._set.noise_seed(sample, view),
                           "scene": self._set.scene_yaml(sample, view)}
         return arrays
 
@@ -217,7 +231,7 @@ class Samples:
             yield out
 
 
-def open_dataset(folder: str | os.PathLike[str], computed: bool | None = None) -> Samples:
+def open_dataset(folder: str | os.PathLike[str], computed: bool | None = None, split: str | None = None) -> Samples:
     """The samples of a data set: out of its shards, or computed when they are asked for. Both have the same bytes.
 
     Parameters
@@ -226,6 +240,8 @@ def open_dataset(folder: str | os.PathLike[str], computed: bool | None = None) -
         Where ``tofray dataset plan`` wrote plan.json, with or without shards.
     computed : bool or None
         Whether samples are computed; None: where the set is not merged.
+    split : str or None
+        ``train``, ``validation`` or ``test``: ``rows``, ``order`` and ``stream`` have these samples alone; None: all.
 
     Returns
     -------
@@ -235,5 +251,7 @@ def open_dataset(folder: str | os.PathLike[str], computed: bool | None = None) -
     ------
     Error
         Where there is no plan, the set is another one than at the plan, or samples are to come out of shards that are not merged.
+    ValueError
+        For a split that is none.
     """
-    return Samples(folder, computed)
+    return Samples(folder, computed, split)

@@ -23,5 +23,6 @@ std::string Dataset::scene_yaml(std::uint64_t sample, std::uint64_t view) const 
 Scene Dataset::scene(std::uint64_t sample, std::uint64_t view) const { return impl_->scenes.scene(sample, view); }
 std::vector<Drawn> Dataset::drawn(std::uint64_t sample, std::uint64_t view) const { return impl_->scenes.drawn(sample, view); }
 std::uint64_t Dataset::noise_seed(std::uint64_t sample, std::uint64_t view) const { return impl_->scenes.noise_seed(sample, view); }
+std::string Dataset::split(std::uint64_t sample) const { return dataset::split_name(impl_->scenes.split(sample)); }
 
 }  // namespace tofray

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/text.h"
 #include "dataset/forms.h"
@@ -116,16 +117,38 @@ class Finder {
       const std::string_view key = form ? std::string_view(node.keys[i].text) : std::string_view();
       if (key == "grid") grid(item, node.keys[i].place, in_choice);
       if (key == "table" && item.kind == Node::Kind::scalar) fixed_.tables.emplace(&item, table_of(item, set_.folder, inputs_));
-      if (key == "files" && item.kind == Node::Kind::scalar) fixed_.files.emplace(&item, files_of(item, set_.folder, inputs_));
+      if (key == "files" && item.kind == Node::Kind::scalar)
+        fixed_.files.emplace(&item, files_of(item, set_.folder, inputs_)), patterns_.push_back(&item);
       walk(item, in_choice || key == "choice" || key == "grid");
     }
   }
   void finish() {
     multiply();
+    if (set_.split.by == SplitShares::By::asset) pool();
     for (auto& [name, record] : inputs_) fixed_.inputs.push_back(std::move(record));
   }
 
  private:
+  /// Which of each pattern's files are for which split, pattern after pattern: the same bytes are in one split wherever they stand.
+  void pool() {
+    if (patterns_.empty())
+      base::fail(set_.split.place, "split is by asset, and the set draws no files",
+                 "expected a value by {files: \"assets/*.glb\"}, or by: scene");
+    std::map<std::string, Split> known;
+    for (const Node* pattern : patterns_) {
+      std::vector<std::string> contents;
+      for (const std::string& name : fixed_.files[pattern]) contents.push_back(inputs_.at(name).sha256);
+      assign_assets(set_, contents, known);
+      Pools& pools = fixed_.pools[pattern];
+      for (std::size_t i = 0; i < contents.size(); ++i) pools[static_cast<std::size_t>(known.at(contents[i]))].push_back(i);
+      for (const Split split : {Split::train, Split::validation, Split::test})
+        if (share_of(set_.split, split) > 0 && pools[static_cast<std::size_t>(split)].empty())
+          base::fail(pattern->place, std::string("none of the files is for ") + split_name(split),
+                     std::to_string(contents.size()) + " files match, " +
+                         std::to_string(std::set(contents.begin(), contents.end()).size()) +
+                         " of them different; expected one for each split, at least");
+    }
+  }
   void multiply() {
     for (auto one = order_.rbegin(); one != order_.rend(); ++one) {
       Fixed::Grid& grid = fixed_.grids[*one];
@@ -161,7 +184,7 @@ class Finder {
 
   const SetFile& set_;
   Fixed& fixed_;
-  std::vector<const Node*> order_;
+  std::vector<const Node*> order_, patterns_;
   Inputs inputs_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/text.h"
 #include "num/setup_math.h"
@@ -143,6 +144,31 @@ void Sample::note(const Form& form, const std::string& path, std::string text, d
   drawn_.push_back({path, form.name, std::move(text), value});
 }
 
+bool Sample::is_drawn_here(Per per) const {
+  switch (per) {
+    case Per::set: return false;
+    case Per::device: return sample_ < set_.devices && view_ == 0;
+    case Per::scene: return view_ == 0;
+    case Per::view: return true;
+  }
+  return false;
+}
+
+void Sample::locate(Per per, const std::string& path, const std::string& form, const std::optional<Portion>& where) {
+  if (where && is_drawn_here(per)) placed_.push_back({path, form, *where, unit_number(bits(per, path + "#place"))});
+}
+
+void Sample::judge(Judgement& into) const {
+  for (const Placed& one : placed_) {
+    std::string path = one.path;
+    // Objects of one scatter are drawn by one law.
+    for (const Scatter& scatter : scatters_)
+      if (path.starts_with(scatter.path + "[")) path = scatter.path + "[*" + path.substr(path.find(']', scatter.path.size()));
+    DrawCounts& counts = into[path];
+    counts.form = one.form, counts.add(one.where, one.spread);
+  }
+}
+
 void Sample::draw_row(const Node& node, const Node& table, const std::string& name) {
   const auto read = fixed_.tables.find(&table);
   const Node* per = node.find("per");
@@ -150,8 +176,9 @@ void Sample::draw_row(const Node& node, const Node& table, const std::string& na
     wrong(node, "table", "a CSV file's name, as in {table: lamps.csv}, and per alone beside it");
   const std::string path = "let/" + name;
   claim(path, node.place);
-  const auto row = static_cast<std::size_t>(
-      integer(1, static_cast<std::int64_t>(read->second.size()) - 1, bits(per == nullptr ? Per::scene : per_of(*per), path)));
+  const Per anew = per == nullptr ? Per::scene : per_of(*per);
+  const auto row = static_cast<std::size_t>(integer(1, static_cast<std::int64_t>(read->second.size()) - 1, bits(anew, path)));
+  locate(anew, path, "table", place_among(static_cast<double>(row - 1), static_cast<double>(read->second.size() - 1)));
   for (std::size_t i = 0; i < read->second[0].size(); ++i) rows_[name][read->second[0][i]] = read->second[row][i];
   drawn_.push_back({path, "table", base::listed(read->second[row], "and"), static_cast<double>(row - 1)});
 }
@@ -392,6 +419,11 @@ Node Sample::drawn_number(const Form& form, const Node& ends, const std::string&
   }
   value.number += 0.0;
   note(form, path, value.text(), value.number);
+  const double x = value.number;
+  if (name == "uniform" || name == "even") locate(form.per, path, name, uniform_place(x, a, b));
+  if (name == "log_uniform") locate(form.per, path, name, log_uniform_place(x, a, b));
+  if (name == "normal") locate(form.per, path, name, normal_place(x, a, b, low.number, high.number));
+  if (name == "integer") locate(form.per, path, name, place_among(x - a, b - a + 1));
   return scalar(value.text(), form.node->place);
 }
 
@@ -411,7 +443,10 @@ bool Sample::draw_choice(const Form& form, const std::string& path, Node& into) 
       (argument.kind == Node::Kind::map && form.weights != nullptr))
     wrong(argument, "choice",
           "a list [a, b], with `weights` beside it where these are not alike, or a map {a: 3, b: 1} of words and weights");
-  return one_of(form, weighted(weights(form, argument.items.size()), bits(form.per, path)), path, into);
+  const std::vector<double> shares = weights(form, argument.items.size());
+  const std::size_t chosen = weighted(shares, bits(form.per, path));
+  locate(form.per, path, form.name, place_by_weight(chosen, shares));
+  return one_of(form, chosen, path, into);
 }
 
 bool Sample::draw_grid(const Form& form, const std::string& path, Node& into) {
@@ -461,6 +496,7 @@ void Sample::draw_cap(const Form& form, const std::string& path, Node& into) {
   for (int i = 0; i < 3; ++i) items.push_back(scalar(base::number_text((1 - down) * x[i] + c * p[i] + s * q[i] + 0.0), form.node->place));
   into = list_of(std::move(items), form.node->place);
   note(form, path, yaml::flow_text(into), down);
+  locate(form.per, path, form.name, uniform_place(down, 0, 2 * half * half));
 }
 
 /// Uniform on all rotations (Shoemake 1992).
@@ -476,9 +512,34 @@ void Sample::draw_rotation(const Node& node, const std::string& path, Node& into
   for (const double one : q) items.push_back(scalar(base::number_text(one + 0.0), node.place));
   Node list = list_of(std::move(items), node.place);
   drawn_.push_back({path, "any", yaml::flow_text(list), u[0]});
+  locate(per, path, "any", Portion{q[2] * q[2] + q[3] * q[3], 0});
   into = Node();
   into.kind = Node::Kind::map, into.place = node.place, into.height = 2;
   into.keys.push_back({"quaternion", node.place}), into.items.push_back(std::move(list));
+}
+
+std::size_t Sample::draw_file(const Form& form, std::size_t count, const std::string& path) {
+  std::vector<std::size_t> pool(count);
+  std::iota(pool.begin(), pool.end(), std::size_t{0});
+  if (const auto pools = fixed_.pools.find(form.argument); pools != fixed_.pools.end()) {
+    if (form.per != Per::scene && form.per != Per::view)
+      base::fail(form.node->find("per")->place, "`per` stands beside files of a set that is split by asset",
+                 "expected scene or view: a sample has files of its own split alone");
+    pool = pools->second[static_cast<std::size_t>(split_of(set_, sample_))];
+  }
+  if (form.weights == nullptr) {
+    const Index at = index(form.per);
+    const std::size_t chosen = static_cast<std::size_t>(permuted(at.at, at.count, set_.seed, path) % pool.size());
+    locate(form.per, path, form.name, place_among(static_cast<double>(chosen), static_cast<double>(pool.size())));
+    return pool[chosen];
+  }
+  std::vector<double> all = weights(form, count), shares;
+  for (const std::size_t one : pool) shares.push_back(all[one]);
+  if (std::all_of(shares.begin(), shares.end(), [](double one) { return one == 0; }))
+    base::fail(form.weights->place, "no file of a split has a weight that is not 0", "expected one in each split of the set");
+  const std::size_t chosen = weighted(shares, bits(form.per, path));
+  locate(form.per, path, form.name, place_by_weight(chosen, shares));
+  return pool[chosen];
 }
 
 bool Sample::resolve_form(const Form& form, const std::string& path, Node& into) {
@@ -490,10 +551,7 @@ bool Sample::resolve_form(const Form& form, const std::string& path, Node& into)
   if (name == "files") {
     const auto found = fixed_.files.find(form.argument);
     if (found == fixed_.files.end()) wrong(*form.argument, "files", "a pattern such as \"assets/*.glb\"");
-    const std::size_t count = found->second.size();
-    const Index at = index(form.per);
-    const std::size_t chosen = form.weights != nullptr ? weighted(weights(form, count), bits(form.per, path))
-                                                       : static_cast<std::size_t>(permuted(at.at, at.count, set_.seed, path) % count);
+    const std::size_t chosen = draw_file(form, found->second.size(), path);
     note(form, path, found->second[chosen], static_cast<double>(chosen));
     into = scalar(found->second[chosen], form.node->place), into.quoted = true;
     return true;
@@ -503,6 +561,7 @@ bool Sample::resolve_form(const Form& form, const std::string& path, Node& into)
     if (!share.dimensions().bare() || !(share.si() >= 0 && share.si() <= 1))
       wrong(*form.argument, name, "a share from 0 to 1, such as 30 %");
     const bool there = unit_number(bits(form.per, path)) < share.si();
+    locate(form.per, path, name, there ? Portion{0, share.si()} : Portion{share.si(), 1 - share.si()});
     note(form, path, there ? "true" : "", there ? 1 : 0);
     into = scalar("true", form.node->place);
     return there;

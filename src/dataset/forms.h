@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -10,8 +11,10 @@
 
 #include "dataset/draw.h"
 #include "dataset/expression.h"
+#include "dataset/judge.h"
 #include "dataset/placing.h"
 #include "dataset/set_file.h"
+#include "dataset/split.h"
 #include "tofray/dataset.h"
 #include "tofray/file_record.h"
 #include "yaml/tree.h"
@@ -31,6 +34,7 @@ struct Fixed {
   std::map<const yaml::Node*, Grid> grids;
   std::map<const yaml::Node*, std::vector<std::vector<std::string>>> tables;  ///< the names of the columns first
   std::map<const yaml::Node*, std::vector<std::string>> files;                ///< by SHA-256 of their bytes
+  std::map<const yaml::Node*, Pools> pools;                                   ///< of these, where the set is split by asset
   std::vector<FileRecord> inputs;                                             ///< all tables and files, by name, each once
   std::uint64_t combinations = 1;
 };
@@ -50,6 +54,8 @@ class Sample {
   std::vector<std::pair<std::string, std::string>> settings();
   /// All that was drawn for it, in the order of the file.
   [[nodiscard]] const std::vector<Drawn>& drawn() const { return drawn_; }
+  /// Adds what was drawn anew for this view, by its place in its law; after scene() and settings().
+  void judge(Judgement& into) const;
   /// Objects that are to be put, after scene().
   [[nodiscard]] const std::vector<Scatter>& scatters() const { return scatters_; }
   /// The `look` of the camera's pose, as it is written; null where there is none.
@@ -82,6 +88,8 @@ class Sample {
   std::vector<Amount> amounts(const yaml::Node& list, std::size_t count, const std::string& form);
   std::vector<double> weights(const Form& form, std::size_t count) const;
   yaml::Node drawn_number(const Form& form, const yaml::Node& ends, const std::string& path);
+  /// One of the files of a pattern, of those of the sample's split.
+  std::size_t draw_file(const Form& form, std::size_t count, const std::string& path);
   bool one_of(const Form& form, std::size_t chosen, const std::string& path, yaml::Node& into);
   bool draw_choice(const Form& form, const std::string& path, yaml::Node& into);
   bool draw_grid(const Form& form, const std::string& path, yaml::Node& into);
@@ -102,6 +110,8 @@ class Sample {
   /// A number in SI units. @param expected  for messages
   double quantity(const yaml::Node& node, const std::string& path, base::Dimension dimension, const char* expected);
   void note(const Form& form, const std::string& path, std::string text, double value);
+  void locate(Per per, const std::string& path, const std::string& form, const std::optional<Portion>& where);
+  [[nodiscard]] bool is_drawn_here(Per per) const;
 
   const SetFile& set_;
   const Fixed& fixed_;
@@ -112,6 +122,13 @@ class Sample {
   std::map<std::string, std::map<std::string, std::string>, std::less<>> rows_;  ///< of tables, by name
   std::vector<std::string> asked_;                                               ///< names under way
   std::vector<Drawn> drawn_;
+  /// Where in its law something was drawn.
+  struct Placed {
+    std::string path, form;
+    Portion where;
+    double spread = 0;
+  };
+  std::vector<Placed> placed_;
   std::vector<Scatter> scatters_;
   const yaml::Node* look_ = nullptr;
 };

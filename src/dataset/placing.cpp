@@ -198,6 +198,7 @@ class Placer {
                        static_cast<double>(attempt)});
       return;
     }
+    if (scatter.unplaced == Scatter::Unplaced::again) throw NoRoom{scatter.place};
     if (scatter.unplaced == Scatter::Unplaced::fail)
       base::fail(scatter.place,
                  "object " + std::to_string(k) + " of " + std::to_string(scatter.count) + " finds no room in " +

@@ -15,7 +15,7 @@ namespace tofray::dataset {
 
 /// One `scatter`, its values drawn.
 struct Scatter {
-  enum class Unplaced : std::uint8_t { drop, fail };
+  enum class Unplaced : std::uint8_t { drop, again, fail };
   std::string path;                  ///< "objects/clutter"
   base::Place place;                 ///< in the set's file
   std::size_t first = 0, count = 0;  ///< its objects in the scene's list
@@ -27,6 +27,11 @@ struct Scatter {
   int tries = 100;
   Unplaced unplaced = Unplaced::drop;
   std::vector<double> turns_rad;  ///< of each object, about the surface's normal, or about what is up
+};
+
+/// Thrown where an object finds no room and the whole sample is to be drawn again.
+struct NoRoom {
+  base::Place place;
 };
 
 /// `look` of a camera's pose, its values drawn: where it looks at, and from where.
@@ -55,7 +60,7 @@ using Chance = std::function<double(const std::string& path)>;
 /// @param scene  what `tree` says, read: scattered objects stand about their own zero in it
 /// @param camera_stands  whether the camera's pose is known: otherwise things are put on the side of endless planes on which their place is
 /// @return what was drawn: of each object its place, or that there is none
-/// @throws Error (bad_input) where a surface is none, or an object has to be put and cannot
+/// @throws Error (bad_input) where a surface is none, or an object has to be put and cannot; NoRoom
 std::vector<Drawn> place_objects(const Scene& scene, const std::vector<Scatter>& scatters, const Chance& chance, bool camera_stands,
                                  yaml::Node& tree);
 

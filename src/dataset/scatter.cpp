@@ -71,10 +71,12 @@ void Sample::scatter(const Node& map, const std::string& list_path, Node& into) 
   }
   if (!(out.gap_m >= 0)) base::fail(map.find("gap")->place, "scatter's gap is below 0", "expected a length such as 5 mm");
   if (const Node* unplaced = map.find("unplaced")) {
-    if (unplaced->text != "drop" && unplaced->text != "fail")
+    if (unplaced->text != "drop" && unplaced->text != "again" && unplaced->text != "fail")
       base::fail(unplaced->place, "unplaced is not what belongs here",
-                 "got " + yaml::describe(*unplaced) + ", expected drop or fail: what becomes of an object that finds no room");
-    out.unplaced = unplaced->text == "fail" ? Scatter::Unplaced::fail : Scatter::Unplaced::drop;
+                 "got " + yaml::describe(*unplaced) + ", expected drop, again or fail: what becomes of an object that finds no room");
+    out.unplaced = unplaced->text == "fail"    ? Scatter::Unplaced::fail
+                   : unplaced->text == "again" ? Scatter::Unplaced::again
+                                               : Scatter::Unplaced::drop;
   }
   constexpr double two_pi = 6.283185307179586;
   for (std::size_t k = 0; k < out.count; ++k) {

@@ -18,13 +18,17 @@ namespace tofray::dataset {
 
 Scenes::Scenes(std::string_view text, const std::string& source) : set_(parse_set(text, source)), fixed_(fixed_of(set_)) {}
 
-Sample Scenes::at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
+void Scenes::refuse_unknown(std::uint64_t sample, std::uint64_t view) const {
   if (sample >= set_.samples)
     throw Error(ErrorKind::bad_input, "error: there is no sample " + std::to_string(sample) + "\n  " + set_.source + " has " +
                                           std::to_string(set_.samples) + ", numbered from 0");
   if (view >= set_.views)
     throw Error(ErrorKind::bad_input, "error: there is no view " + std::to_string(view) + "\n  " + set_.source + " has " +
                                           std::to_string(set_.views) + " of each sample, numbered from 0");
+}
+
+Sample Scenes::at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
+  refuse_unknown(sample, view);
   return {set_, fixed_, sample, view, attempt};
 }
 
@@ -35,22 +39,32 @@ std::string Scenes::source(std::uint64_t sample, std::uint64_t view) const {
 Scenes::Written Scenes::write(std::uint64_t sample, std::uint64_t view) const {
   const std::uint32_t attempt = accepted(sample);
   Written out = write_attempt(sample, view, attempt);
-  if (!set_.accept.empty()) out.drawn.push_back({"accept", "attempt", std::to_string(attempt), static_cast<double>(attempt)});
+  if (set_.tries()) out.drawn.push_back({"accept", "attempt", std::to_string(attempt), static_cast<double>(attempt)});
   return out;
 }
 
+std::optional<std::size_t> Scenes::broken_rule_of(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
+  const Written written = write_attempt(sample, view, attempt);
+  if (set_.accept.empty()) return {};
+  return broken_rule(load::scene_from_text(written.yaml, source(sample, view)), noise_seed(sample, view), set_.accept);
+}
+
 std::uint32_t Scenes::accepted(std::uint64_t sample) const {
-  if (set_.accept.empty()) return 0;
+  if (!set_.tries()) return 0;
   {
     const std::lock_guard lock(mutex_);
     if (const auto known = accepted_.find(sample); known != accepted_.end()) return known->second;
   }
   std::vector<std::uint64_t> refused(set_.accept.size(), 0);
+  std::uint64_t crowded = 0;
+  base::Place without_room;
   for (std::uint32_t attempt = 0; attempt < set_.attempts; ++attempt) {
     std::optional<std::size_t> broken;
-    for (std::uint64_t view = 0; view < set_.views && !broken; ++view) {
-      const Scene scene = load::scene_from_text(write_attempt(sample, view, attempt).yaml, source(sample, view));
-      broken = broken_rule(scene, noise_seed(sample, view), set_.accept);
+    try {
+      for (std::uint64_t view = 0; view < set_.views && !broken; ++view) broken = broken_rule_of(sample, view, attempt);
+    } catch (const NoRoom& thrown) {
+      without_room = thrown.place, ++crowded;
+      continue;
     }
     if (broken) {
       ++refused[*broken];
@@ -61,6 +75,10 @@ std::uint32_t Scenes::accepted(std::uint64_t sample) const {
     if (accepted_.size() >= most_known) accepted_.clear();
     return accepted_[sample] = attempt;
   }
+  if (crowded > 0 && (refused.empty() || crowded >= *std::max_element(refused.begin(), refused.end())))
+    base::fail(without_room, "things of this scatter find no room in sample " + std::to_string(sample),
+               "in " + std::to_string(crowded) + " of " + std::to_string(set_.attempts) +
+                   " attempts; expected fewer or smaller ones, a larger place, more `attempts`, or `unplaced: drop`");
   const auto worst = static_cast<std::size_t>(std::max_element(refused.begin(), refused.end()) - refused.begin());
   base::fail(set_.accept[worst].place, "accept takes no attempt at sample " + std::to_string(sample),
              "of " + std::to_string(set_.attempts) + ", this rule refused " + std::to_string(refused[worst]) +
@@ -97,6 +115,23 @@ Scenes::Written Scenes::write_attempt(std::uint64_t sample, std::uint64_t view, 
   return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), std::move(drawn)};
 }
 
+void Scenes::judge(std::uint64_t sample, std::uint64_t view, Judgement& into) const {
+  std::optional<Sample> drawing;
+  try {
+    drawing.emplace(at(sample, view));
+    drawing->scene(), drawing->settings();
+  } catch (const Error&) {
+    // A sample without a scene: what was drawn before that was seen counts.
+    if (!drawing) return;
+  }
+  drawing->judge(into);
+}
+
+Split Scenes::split(std::uint64_t sample) const {
+  refuse_unknown(sample, 0);
+  return split_of(set_, sample);
+}
+
 std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).yaml; }
 
 Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
@@ -107,7 +142,7 @@ std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const
   Sample drawing = at(sample, view);
   drawing.scene();
   drawing.settings();
-  const bool as_drawn = drawing.scatters().empty() && drawing.look() == nullptr && set_.accept.empty();
+  const bool as_drawn = drawing.scatters().empty() && drawing.look() == nullptr && !set_.tries();
   return as_drawn ? drawing.drawn() : write(sample, view).drawn;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ class Scenes {
   [[nodiscard]] std::vector<Drawn> drawn(std::uint64_t sample, std::uint64_t view) const;
   [[nodiscard]] std::uint64_t noise_seed(std::uint64_t sample, std::uint64_t view) const;
 
+  [[nodiscard]] Split split(std::uint64_t sample) const;
+  /// Adds what was drawn for a view before anything was refused, by its place in its law: `accept` and places bend laws, samplers do not.
+  void judge(std::uint64_t sample, std::uint64_t view, Judgement& into) const;
+
   /// A sample's scene as YAML, and what was drawn for it.
   struct Written {
     std::string yaml;
@@ -41,8 +46,11 @@ class Scenes {
   [[nodiscard]] std::string source(std::uint64_t sample, std::uint64_t view) const;
 
  private:
+  void refuse_unknown(std::uint64_t sample, std::uint64_t view) const;
   [[nodiscard]] Sample at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt = 0) const;
   [[nodiscard]] Written write_attempt(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const;
+  /// Which rule of `accept` an attempt breaks. @throws NoRoom
+  [[nodiscard]] std::optional<std::size_t> broken_rule_of(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const;
   /// The first attempt that the set's `accept` takes. @throws Error (bad_input) where it takes none
   [[nodiscard]] std::uint32_t accepted(std::uint64_t sample) const;
   SetFile set_;

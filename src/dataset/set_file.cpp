@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dataset/set_file.h"
 
+#include <algorithm>
+
 #include "files/text_file.h"
 #include "yaml/reader.h"
 
@@ -18,6 +20,24 @@ model::Form rule_form() {
                                  model::absent("pixels", model::integer({1, 1e9}, "200"), "by so many pixels, at least")});
   rule.exactly_one = {"valid", "seen"};
   return rule;
+}
+
+model::Form split_form() {
+  const auto share = [](const char* example) { return model::number(base::Dimension::fraction, {0, 1}, example); };
+  return model::map({model::required("by", model::choice({"scene", "asset"}), "what no two splits have in common"),
+                     model::absent("test", share("10 %"), "the share of the samples that are for testing"),
+                     model::absent("validation", share("5 %"), "the share of those that are for validation")});
+}
+
+SplitShares split_shares(const yaml::Value& value, base::Faults& faults) {
+  SplitShares out;
+  if (!value || !value.good) return out;
+  out.by = value["by"].text == "asset" ? SplitShares::By::asset : SplitShares::By::scene, out.place = value.place();
+  out.test = value["test"] ? value["test"].number : 0, out.validation = value["validation"] ? value["validation"].number : 0;
+  if (!(out.test + out.validation > 0 && out.test + out.validation < 1))
+    faults.add(out.place, "split leaves a part without samples",
+               "expected test, validation or both above 0 %, and less than 100 % together: {by: scene, test: 10 %, validation: 5 %}");
+  return out;
 }
 
 const model::FileForm& set_form() {
@@ -37,11 +57,18 @@ const model::FileForm& set_form() {
           absent("accept", model::list(rule_form(), 1, 16), "what a sample has to show, or it is drawn again"),
           absent("attempts", model::integer({1, most_attempts}, "50"), "how often a sample is drawn until accept takes it"),
           absent("holes", model::number(base::Dimension::fraction, {0, 1}, "0.1 %"), "the share of samples that may fail"),
+          absent("split", split_form(), "which samples are for training, validation and testing"),
           required("scene", model::Form{}, "a scene in which any value may be a form"),
           absent("set", model::Form{}, "keys and values as --set takes them; of the camera, too"),
       }),
   };
   return form;
+}
+
+/// Whether a map below has `unplaced: again`.
+bool places_again(const yaml::Node& node) {
+  const yaml::Node* unplaced = node.kind == yaml::Node::Kind::map ? node.find("unplaced") : nullptr;
+  return (unplaced != nullptr && unplaced->text == "again") || std::any_of(node.items.begin(), node.items.end(), places_again);
 }
 
 void need_map(const yaml::Node& node, const char* key, base::Faults& faults) {
@@ -81,9 +108,11 @@ SetFile parse_set(std::string_view text, const std::string& source) {
       out.accept.push_back(std::move(rule));
     }
   if (value["holes"] && value["holes"].good) out.holes = value["holes"].number;
+  out.split = split_shares(value["split"], faults);
   if (const yaml::Node* let = root.find("let")) out.let = *let;
   if (const yaml::Node* scene = root.find("scene")) out.scene = *scene;
   if (const yaml::Node* set = root.find("set")) out.set = *set;
+  out.again = places_again(out.scene);
   need_map(out.let, "let", faults), need_map(out.set, "set", faults);
   if (root.find("scene") != nullptr && out.scene.kind != yaml::Node::Kind::map)
     faults.add(out.scene.place, "scene is not what belongs here",

@@ -55,6 +55,35 @@ std::string flag_rows(const Summary& of) {
   return out;
 }
 
+std::string split_rows(const Summary& of) {
+  const dataset::SplitShares& shares = of.set.split;
+  if (shares.by == dataset::SplitShares::By::nothing) return {};
+  std::string out = "\n## Splits\n\n| split | scenes |\n|---|---|\n";
+  for (const dataset::Split split : {dataset::Split::train, dataset::Split::validation, dataset::Split::test})
+    if (dataset::share_of(shares, split) > 0)
+      out += fmt::format("| {} | {} |\n", split_name(split), of.by_split[static_cast<std::size_t>(split)]);
+  return out +
+         (shares.by == dataset::SplitShares::By::asset
+              ? "\nNo two splits have a file of a `files` pattern in common, by its SHA-256. All else that the set's file says is in each: "
+                "its primitives, materials, laws and camera.\n"
+              : "\nNo two splits have a scene in common. Files, materials, laws and the camera are in each: what a network knows of these, "
+                "it "
+                "knows from training.\n");
+}
+
+std::string law_rows(const dataset::Judgement& draws) {
+  if (draws.empty()) return {};
+  std::string out =
+      "\n## Draws\n\nValues by their place in the law that they are drawn by, in 16 bins, before any scene was refused.\n\n| key | form | "
+      "draws | χ² |\n|---|---|---|---|\n";
+  for (const auto& [path, one] : draws)
+    out += fmt::format("| `{}` | {} | {} | {:.1f}{} |\n", path, one.form, one.draws(), one.chi_square(),
+                       one.draws() < dataset::DrawCounts::least ? ", too few to judge"
+                       : one.misses()                           ? ", **misses its law**"
+                                                                : "");
+  return out + fmt::format("\nRight samplers exceed {:.1f} once in a million times.\n", dataset::DrawCounts::most);
+}
+
 std::string input_rows(const Summary& of) {
   std::map<std::string, std::string> all = of.inputs;
   for (const FileRecord& one : of.plan.inputs) all.emplace(one.name, one.sha256);
@@ -97,6 +126,7 @@ std::string card_text(const Summary& of) {
       "frame, camera matrix, distortion, camera's pose), its objects with poses and boxes, what was drawn, and the whole scene as YAML.\n";
   if (const std::string flags = flag_rows(of); !flags.empty())
     out += "\n## Flags\n\nShare of all pixels.\n\n| flag | pixels |\n|---|---|\n" + flags;
+  out += split_rows(of) + law_rows(seen.draws);
   out +=
       "\n## How to load it\n\n"
       "```python\nimport tofray\n\nsamples = tofray.open_dataset(\"FOLDER\")       # this folder, or the plan alone: then samples are "

@@ -16,6 +16,7 @@
 #include "shards/layout.h"
 #include "shards/record.h"
 #include "shards/sample.h"
+#include "shards/summary.h"
 #include "tofray/error.h"
 #include "yaml/tree.h"
 
@@ -136,6 +137,17 @@ Pilot fly(const dataset::Scenes& scenes, const PlanRequest& request) {
   return out;
 }
 
+/// Draws the first samples, which costs little, and looks at each key's values together.
+void refuse_missed_laws(const dataset::Scenes& scenes) {
+  constexpr std::uint64_t most = 4000;
+  const dataset::SetFile& set = scenes.set();
+  dataset::Judgement draws;
+  for (std::uint64_t row = 0; row < std::min(most, set.samples * set.views); ++row) scenes.judge(row / set.views, row % set.views, draws);
+  if (const std::string missed = dataset::missed_laws(draws); !missed.empty())
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: values miss the law that they are drawn by: {}\n  {}", set.source, missed, law_advice));
+}
+
 /// 64 MiB to 1 GiB, and no more than 10 minutes of a core; one ten-thousandth of the set between these.
 std::uint64_t shard_samples_of(const Pilot& pilot, std::uint64_t samples) {
   constexpr double most_seconds = 600, least_bytes = 0x1p26, most_bytes = 0x1p30;
@@ -168,6 +180,7 @@ DatasetPlan plan(const PlanRequest& request) {
     }
     return out;
   }
+  refuse_missed_laws(scenes);
   const Pilot pilot = fly(scenes, request);
   Plan made;
   made.version = base::version(), made.samples = scenes.set().samples, made.views = scenes.set().views;

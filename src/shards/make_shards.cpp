@@ -29,6 +29,7 @@ namespace fs = std::filesystem;
 struct SampleOrHole {
   std::vector<MadeSample> views;
   std::string why;
+  dataset::Judgement draws;
 };
 
 void refuse_other_bytes(const Plan& plan) {
@@ -44,7 +45,12 @@ void refuse_other_bytes(const Plan& plan) {
 class ShardMaker {
  public:
   ShardMaker(const ShardRunRequest& request, const ShardWatch& watch, const Plan& plan, const dataset::Scenes& scenes)
-      : request_(request), watch_(watch), plan_(plan), worker_(request.folder), maker_(scenes, plan.arrays, request.progress) {}
+      : request_(request),
+        watch_(watch),
+        plan_(plan),
+        scenes_(scenes),
+        worker_(request.folder),
+        maker_(scenes, plan.arrays, request.progress) {}
 
   /// @param total  samples of all shards that are to be made, for whoever watches
   ShardMade make(std::uint64_t shard, std::uint64_t total) {
@@ -82,11 +88,13 @@ class ShardMaker {
       out.views.clear();
       out.why = maker_.without_folder(error.what());
     }
+    for (std::uint64_t view = 0; view < plan_.views; ++view) scenes_.judge(number, view, out.draws);
     worker_.ends(number);
     return out;
   }
 
   void put(std::uint64_t number, const SampleOrHole& one, files::StreamedFile& tar, Record& record) const {
+    for (const auto& [path, counts] : one.draws) record.statistics.draws[path].add(counts);
     if (one.views.empty()) return record.holes.push_back({number, one.why}), void();
     for (const MadeSample& view : one.views) {
       Record::Sample& into = record.samples.emplace_back();
@@ -147,6 +155,7 @@ class ShardMaker {
   const ShardRunRequest& request_;
   const ShardWatch& watch_;
   const Plan& plan_;
+  const dataset::Scenes& scenes_;
   Worker worker_;
   SampleMaker maker_;
   std::uint64_t done_ = 0;

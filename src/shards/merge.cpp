@@ -65,7 +65,9 @@ class Merger {
         index_(make_index()),
         shard_(index_, worker_.folder(), "shard", {rows_}, std::uint32_t{}),
         offset_(index_, worker_.folder(), "offset", {rows_, plan.arrays.size() + 1}, std::uint64_t{}),
-        bytes_(index_, worker_.folder(), "bytes", {rows_, plan.arrays.size() + 1}, std::uint64_t{}) {}
+        bytes_(index_, worker_.folder(), "bytes", {rows_, plan.arrays.size() + 1}, std::uint64_t{}),
+        split_(index_, worker_.folder(), "split", {rows_}, std::uint8_t{}),
+        set_(dataset::parse_set(plan.set_text, plan.set_name)) {}
 
   void add(const Record& record, const std::string& text) {
     ++result.shards, result.samples += record.count - record.holes.size(), result.holes += record.holes.size(),
@@ -89,17 +91,18 @@ class Merger {
     for (std::uint64_t i = 0; i < record.count; ++i)
       for (std::uint64_t view = 0; view < plan_.views; ++view) {
         const bool there = next != record.samples.end() && next->sample == record.first + i && next->view == view;
-        row(there ? &*next : nullptr, record.shard);
+        row(there ? &*next : nullptr, record.shard, record.first + i);
         if (there) shown_.add(record, *next++, (record.first + i) * plan_.views + view);
       }
   }
   /// Rows of a shard that is not there.
   void skip(std::uint64_t shard) {
-    for (std::uint64_t i = 0; i < plan_.count_of(shard) * plan_.views; ++i) row(nullptr, shard);
+    for (std::uint64_t i = 0; i < plan_.count_of(shard) * plan_.views; ++i) row(nullptr, shard, plan_.first_of(shard) + i / plan_.views);
   }
 
   void finish() {
     sum(shard_, "index/shard.npy"), sum(offset_, "index/offset.npy"), sum(bytes_, "index/bytes.npy");
+    sum(split_, "index/split.npy");
     std::vector<std::string> members;
     for (const std::string& array : plan_.arrays) members.push_back(array + ".npy");
     members.emplace_back("json");
@@ -110,7 +113,8 @@ class Merger {
                                                    .set("members", Json::list(members))
                                                    .set("shard", "where it is; 4294967295: a hole, or a shard that is not there")
                                                    .set("offset", "of each member's bytes in the shard's tar")
-                                                   .set("bytes", "of each member"),
+                                                   .set("bytes", "of each member")
+                                                   .set("split", "0 train, 1 validation, 2 test"),
                                                2) +
                                   "\n");
     Json inputs = Json::object(), holes = Json::array();
@@ -128,8 +132,8 @@ class Merger {
                                  "\n");
     Json list = Json::object().set("__kind__", "wids-shard-index-v1").set("wids_version", 1);
     write("wids.json", files::json_text(list.set("name", plan_.set_name).set("shardlist", std::move(list_)), 1) + "\n");
-    const dataset::SetFile set = dataset::parse_set(plan_.set_text, plan_.set_name);
-    Summary summary{plan_, set, result.shards, result.samples, result.bytes, statistics_, holes_, {}, shown_.spread(), shown_.worst()};
+    Summary summary{plan_,  set_, result.shards,   result.samples, result.bytes, statistics_,
+                    holes_, {},   shown_.spread(), shown_.worst(), by_split_};
     for (const auto& [name, one] : inputs_) summary.inputs.emplace(name, one.first);
     write("card.md", card_text(summary));
     sums_ += sum_line(files::sha256_hex(files::read_bytes((folder_ / "plan.json").native(), std::size_t{1} << 28)), "plan.json");
@@ -140,6 +144,7 @@ class Merger {
       files::write_file_atomically(folder_ / name, text), result.files.emplace_back(name);
     };
     beside("croissant.json", croissant_text(summary, files::sha256_hex(sums_))), beside("preview.html", preview_page(summary));
+    result.missed_laws = dataset::missed_laws(statistics_.draws);
     result.pixels = statistics_.pixels, result.valid = statistics_.valid;
   }
 
@@ -153,7 +158,10 @@ class Merger {
       throw Error(ErrorKind::io, fmt::format("{}: error: cannot make this folder: {}", (folder_ / "index").native(), fault.message()));
     return folder_ / "index";
   }
-  void row(const Record::Sample* sample, std::uint64_t shard) {
+  void row(const Record::Sample* sample, std::uint64_t shard, std::uint64_t number) {
+    const auto split = static_cast<std::size_t>(dataset::split_of(set_, number));
+    split_.push(static_cast<std::uint8_t>(split));
+    if (sample != nullptr && sample->view == 0) ++by_split_[split];
     shard_.push(sample != nullptr ? static_cast<std::uint32_t>(shard) : no_shard);
     for (std::size_t k = 0; k <= plan_.arrays.size(); ++k) {
       const bool there = sample != nullptr && k < sample->members.size();
@@ -172,7 +180,9 @@ class Merger {
   Worker worker_;
   std::size_t rows_;
   fs::path index_;
-  Column shard_, offset_, bytes_;
+  Column shard_, offset_, bytes_, split_;
+  dataset::SetFile set_;
+  std::array<std::uint64_t, 3> by_split_{};
   Statistics statistics_;
   std::string sums_;
   Json list_ = Json::array();

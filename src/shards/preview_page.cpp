@@ -65,11 +65,40 @@ std::string histogram(const std::array<std::uint64_t, n>& counts, double low, do
       width, height, name, bars, name, low + step * static_cast<double>(first), low + step * static_cast<double>(last), unit, step, unit);
 }
 
+/// A line for each key: its values by their place in their law, which are as many in each bar where the sampler is right.
+std::string laws(const dataset::Judgement& draws) {
+  if (draws.empty()) return {};
+  std::string rows;
+  for (const auto& [path, one] : draws) {
+    std::string bars;
+    const std::uint64_t most = std::max<std::uint64_t>(1, *std::max_element(one.counts.begin(), one.counts.end()));
+    for (std::size_t i = 0; i < one.counts.size(); ++i) {
+      const double tall = 20 * static_cast<double>(one.counts[i]) / static_cast<double>(most);
+      bars += fmt::format("<rect x=\"{}\" y=\"{:.1f}\" width=\"7\" height=\"{:.1f}\"/>", 8 * i, 20 - tall, tall);
+    }
+    const std::string said = one.draws() < dataset::DrawCounts::least ? "too few to judge"
+                             : one.misses()                           ? "<strong>misses its law</strong>"
+                                                                      : "";
+    rows += fmt::format(
+        "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{:.1f}</td><td><svg class=\"bars\" viewBox=\"0 0 128 20\" role=\"img\" "
+        "aria-label=\"places of {} in its law\">{}</svg></td><td>{}</td></tr>\n",
+        shown_text(path), shown_text(one.form), one.draws(), one.chi_square(), shown_text(path), bars, said);
+  }
+  return fmt::format(
+      "<h2>Draws</h2>\n<p>Values by their place in the law that they are drawn by, before any was refused: level, but for chance. χ² above "
+      "{:.1f} "
+      "of 15 degrees of freedom happens to right samplers once in a million "
+      "times.</p>\n<table><tr><th>key</th><th>form</th><th>draws</th><th>χ²</th>"
+      "<th>from 0 to 1</th><th></th></tr>\n{}</table>\n",
+      dataset::DrawCounts::most, rows);
+}
+
 constexpr std::string_view style =
     "body{font:15px/1.5 system-ui,sans-serif;margin:2rem auto;max-width:72rem;padding:0 1rem;color:#17181c;background:#fff}"
     "figure{display:inline-block;margin:0 .75rem .75rem "
     "0;vertical-align:top}figure.wide{display:block}img{width:224px;image-rendering:pixelated;display:block}"
-    "figcaption{font-size:.85rem}svg{width:100%;max-width:640px;border-bottom:1px solid currentColor}rect{fill:#3b6ea5}"
+    "figcaption{font-size:.85rem}svg{width:100%;max-width:640px;border-bottom:1px solid "
+    "currentColor}svg.bars{width:128px}rect{fill:#3b6ea5}"
     "code,pre{font-size:.85rem;overflow-x:auto}table{border-collapse:collapse}td,th{padding:.15rem .75rem .15rem 0;text-align:left}"
     "@media(prefers-color-scheme:dark){body{color:#e8e8ea;background:#17181c}rect{fill:#7fb0e6}}";
 
@@ -107,6 +136,7 @@ std::string preview_page(const Summary& of) {
       flags += fmt::format("<tr><td><code>{}</code></td><td>{}</td></tr>", flag, percent(pixels, seen.pixels));
   }
   if (!flags.empty()) out += "<h2>Flags</h2>\n<table><tr><th>flag</th><th>of all pixels</th></tr>" + flags + "</table>\n";
+  out += laws(seen.draws);
   if (!of.holes.empty()) {
     std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> by_reason;  // how many, the first one
     for (const auto& [sample, why] : of.holes) {

@@ -186,7 +186,12 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
   Json materials = Json::array();
   for (const Material& material : scene.materials) materials.push(material.name);
   Json json = Json::object();
-  json.set("sample", sample).set("view", view).set("set", scenes_.set().name).set("tofray", base::version()).set("seed", options.seed);
+  json.set("sample", sample)
+      .set("view", view)
+      .set("split", dataset::split_name(scenes_.split(sample)))
+      .set("set", scenes_.set().name)
+      .set("tofray", base::version())
+      .set("seed", options.seed);
   json.set("camera", Json::object()
                          .set("profile", camera.name)
                          .set("mode", camera.mode.name)

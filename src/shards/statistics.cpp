@@ -59,6 +59,7 @@ void Statistics::add(const Statistics& other) {
     std::transform(into.begin(), into.end(), from.begin(), into.begin(), std::plus<>());
   };
   sum(flags, other.flags), sum(true_z, other.true_z), sum(error, other.error);
+  for (const auto& [path, counts] : other.draws) draws[path].add(counts);
 }
 
 files::Json Statistics::json() const {
@@ -70,7 +71,10 @@ files::Json Statistics::json() const {
   out.set("frames", frames).set("pixels", pixels).set("valid", valid).set("flags", std::move(by_flag));
   out.set("gt_z_m", Json::object().set("low", 0.0).set("step", range_step_m).set("counts", Json::list(true_z)));
   out.set("z_error_m", Json::object().set("low", error_low_m).set("step", error_step_m).set("counts", Json::list(error)));
-  return out;
+  Json drawn = Json::object();
+  for (const auto& [path, counts] : draws)
+    drawn.set(path, Json::object().set("form", counts.form).set("counts", Json::list(counts.counts)));
+  return out.set("draws", std::move(drawn));
 }
 
 Statistics statistics_of(const files::Json& json, const std::string& where) {
@@ -84,6 +88,14 @@ Statistics statistics_of(const files::Json& json, const std::string& where) {
   const files::Json *true_z = json.find("gt_z_m"), *error = json.find("z_error_m");
   good = good && true_z != nullptr && error != nullptr;
   if (good) read_counts(true_z->find("counts"), out.true_z, good), read_counts(error->find("counts"), out.error, good);
+  if (const files::Json* draws = json.find("draws"); good && draws != nullptr && draws->is_object())
+    for (const auto& [path, one] : *draws->members()) {
+      const files::Json* form = one.find("form");
+      good = good && form != nullptr && form->string() != nullptr;
+      if (!good) break;
+      out.draws[path].form = *form->string();
+      read_counts(one.find("counts"), out.draws[path].counts, good);
+    }
   if (!good)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: its statistics are not those that this tofray counts\n  expected a record of this version", where));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "dataset/judge.h"
 #include "files/json.h"
 #include "tofray/frame.h"
 
@@ -21,6 +22,7 @@ struct Statistics {
   std::array<std::uint64_t, flag_bits> flags{};    ///< pixels by bit of `flags`
   std::array<std::uint64_t, range_bins> true_z{};  ///< gt_z_m of pixels that see something
   std::array<std::uint64_t, error_bins> error{};   ///< z_m − gt_z_m of valid pixels
+  dataset::Judgement draws;                        ///< what was drawn, by key, against its law
 
   void add(const Frame& frame);
   void add(const Statistics& other);

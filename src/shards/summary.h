@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -14,6 +15,10 @@
 /// What people and catalogues read of a set: card.md, preview.html, croissant.json.
 namespace tofray::shards {
 
+/// What to do where values miss their law.
+inline constexpr const char* law_advice =
+    "right samplers do that once in a million times: another `seed` tells chance from a fault of this tofray or this processor";
+
 /// A set as merge found it.
 struct Summary {
   const Plan& plan;
@@ -23,6 +28,7 @@ struct Summary {
   std::vector<std::pair<std::uint64_t, std::string>> holes;  ///< samples, and why
   std::map<std::string, std::string> inputs;                 ///< SHA-256 of files that samples read, by name
   std::vector<ShownSample> spread, worst;
+  std::array<std::uint64_t, 3> by_split{};  ///< samples that are there
 };
 
 /// For people who find the set: what it is, how it was made, how to load it and to make it again, what is not in it.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """cluster_test.py TOFRAY ENGINE: a set made by an engine has the SHA256SUMS of one process; 77 where the engine is not there.
 
-ENGINE: slurm (three nodes of different instruction sets, one of which dies), parallel, mpirun.
+ENGINE: slurm (three nodes of different instruction sets, a preemption, a node that dies), dask (three workers, one of which dies), parallel, mpirun.
 """
 
 from __future__ import annotations
@@ -44,6 +44,16 @@ class Set:
         assert done.returncode == code, f"{words}: {done.returncode}\n{done.stdout}\n{done.stderr}"
         return done.stdout
 
+    def complete(self, cluster: slurm.Cluster) -> None:
+        """Submits what is missing, and waits for its merge."""
+        said = self.run("submit", str(self.out), "--tasks", "5")
+        if "nothing to submit" in said:
+            self.run("merge", str(self.out))
+            return
+        words = said.split()
+        cluster.end_of(words[1].rstrip(":"))
+        cluster.end_of(words[words.index("shards;") + 2])
+
     def sums(self) -> str:
         return (self.out / "SHA256SUMS").read_text()
 
@@ -73,6 +83,16 @@ def by_slurm(tool: str, folder: pathlib.Path, expected: str) -> None:
         assert not talk, f"quiet jobs say nothing: {talk}"
         assert "nothing to submit" in one.run("submit", str(one.out))
 
+        # An urgent job takes all nodes with shards under way.
+        urgent = Set(tool, folder / "urgent", cluster.environment)
+        words = urgent.run("submit", str(urgent.out), "--tasks", "3").split()
+        cluster.wait(lambda: len(list(urgent.out.glob("shards/000/*.json"))) >= 1, "a shard")
+        cluster.preempt(words[1].rstrip(":"))
+        cluster.end_of(words[1].rstrip(":"))
+        cluster.end_of(words[words.index("shards;") + 2])
+        urgent.complete(cluster)
+        assert urgent.sums() == expected, "the sums of one process after a preemption"
+
         # More tasks than the cluster takes; Slurm that refuses.
         two = Set(tool, folder / "two", cluster.environment)
         done = subprocess.run([tool, "dataset", "submit", str(two.out), "--tasks", "20"], env=cluster.environment, capture_output=True, text=True)
@@ -93,13 +113,7 @@ def by_slurm(tool: str, folder: pathlib.Path, expected: str) -> None:
         cluster.start_node("n2")
         cluster.wait(lambda: "idle" in cluster.ask("sinfo", "-h", "-n", "n2", "-o", "%T"), "a node that is back")
         left = two.run("status", str(two.out), code=1) if len(list(two.out.glob("shards/000/*.json"))) < 20 else ""
-        if left:
-            said = two.run("submit", str(two.out), "--tasks", "5")
-            words = said.split()
-            cluster.end_of(words[1].rstrip(":"))
-            cluster.end_of(words[words.index("shards;") + 2])
-        else:
-            two.run("merge", str(two.out))
+        two.complete(cluster)
         assert two.sums() == expected, "the sums of one process after a dead node"
         print(f"slurm: {len(expected.splitlines())} files; a node died with {left.splitlines()[0] if left else 'nothing missing'}")
 
@@ -127,16 +141,38 @@ def by_mpirun(tool: str, folder: pathlib.Path, expected: str) -> None:
     assert one.sums() == expected
 
 
+def by_dask(tool: str, folder: pathlib.Path, expected: str) -> None:
+    one = Set(tool, folder / "one")
+    here = pathlib.Path(__file__).parent
+    subprocess.run(["/usr/bin/python3", "-B", str(here / "dask_cluster.py"), str(one.out)], check=True, cwd=folder,
+                   env={**os.environ, "TOFRAY_COMMAND": tool, "PYTHONPATH": str(here.parents[1] / "python")})
+    assert one.sums() == expected, "the sums of one process"
+
+
+def missing_dask() -> str:
+    done = subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True, check=False)
+    return "" if done.returncode == 0 else "distributed not installed (Debian: python3-distributed)"
+
+
+def why_not(engine: str) -> str:
+    """Why an engine cannot be tested here; empty where it can."""
+    if engine == "slurm":
+        return slurm.missing()
+    if engine == "dask":
+        return missing_dask()
+    return "" if shutil.which(engine) else f"{engine} not installed (Debian: {'openmpi-bin' if engine == 'mpirun' else engine})"
+
+
 def main() -> int:
     tool, engine = sys.argv[1:]
-    why = slurm.missing() if engine == "slurm" else "" if shutil.which(engine) else f"{engine} not installed (Debian: {'openmpi-bin' if engine == 'mpirun' else engine})"
+    why = why_not(engine)
     if why:
         print(f"SKIPPED: {why}")
         return 77
     with tempfile.TemporaryDirectory(prefix="tofray-cluster-") as name:
         folder = pathlib.Path(name)
         expected = alone(tool, folder / "alone")
-        {"slurm": by_slurm, "parallel": by_parallel, "mpirun": by_mpirun}[engine](tool, folder, expected)
+        {"slurm": by_slurm, "dask": by_dask, "parallel": by_parallel, "mpirun": by_mpirun}[engine](tool, folder, expected)
     return 0
 
 

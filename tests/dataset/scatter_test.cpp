@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "dataset/solids.h"
 #include "files/sha256.h"
@@ -187,6 +188,26 @@ TEST(scatter, that_finds_no_room_is_dropped_and_told_or_fails) {
   EXPECT_TRUE(has(error.what(), "set.yaml:7:") && has(error.what(), "of 5 finds no room in 20 tries")) << error.what();
 }
 
+TEST(scatter, that_finds_no_room_draws_the_sample_again_where_it_is_told) {
+  const std::string of = "{box: {min: [-6 cm, -5 cm, -6 cm], max: [6 cm, 5 cm, 6 cm], reflectivity: 0.5}}";
+  const auto again = [&](const char* count) {
+    return ScatterSet(table + "    - scatter: {name: clutter, count: " + count + ", of: " + of +
+                      ", surface: table, tries: 1, unplaced: again}\n");
+  };
+  const ScatterSet two = again("2");
+  std::set<double> attempts;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(scattered(two.get().scene(i)).size(), 2U) << "all of them, or another attempt";
+    attempts.insert(two.get().drawn(i).back().value);
+  }
+  EXPECT_GT(attempts.size(), 2U) << "some find room at once, others do not";
+  const ScatterSet five = again("60");
+  const Error error = out_test::error_of([&] { (void)five.get().scene_yaml(0); });
+  EXPECT_TRUE(has(error.what(), "set.yaml:7:") && has(error.what(), "find no room in sample 0") &&
+              has(error.what(), "in 50 of 50 attempts"))
+      << error.what();
+}
+
 TEST(scatter, that_makes_no_sense_is_refused_where_it_stands) {
   const std::string ball = "{sphere: {center: [0, 0, 0], radius: 5 cm, reflectivity: 0.5}}";
   const std::string plane =
@@ -212,7 +233,7 @@ TEST(scatter, that_makes_no_sense_is_refused_where_it_stands) {
       {"{name: a, count: 2, of: " + ball + ", box: [[0, 0, 0], [1 m, -1 m, 1 m]]}", "box ends before it begins"},
       {"{name: a, count: 2, of: " + ball + ", view: [1 m, 2 m], gap: -1 mm}", "gap is below 0"},
       {"{name: a, count: 2, of: " + ball + ", view: [1 m, 2 m], tries: 0}", "tries"},
-      {"{name: a, count: 2, of: " + ball + ", view: [1 m, 2 m], unplaced: again}", "expected drop or fail"},
+      {"{name: a, count: 2, of: " + ball + ", view: [1 m, 2 m], unplaced: perhaps}", "expected drop, again or fail"},
       {"{name: a, count: 2, of: " + ball + ", view: [1 m, 2 m], turns: 3}", "unknown key \"turns\" in scatter; did you mean \"turn\""},
       {"{count: 2, of: " + ball + ", view: [1 m, 2 m]}", "scatter lacks the key name"},
       {"{name: a, of: " + ball + ", view: [1 m, 2 m]}", "scatter lacks the key count"},

@@ -74,7 +74,8 @@ void all() {
   const tofray::Dataset set((folder / "set.yaml").native());
   expect(set.license().empty() && set.name() == "t" && set.samples() == 3 && set.views() == 1 && set.combinations() == 1, "Dataset");
   expect(set.scene_yaml(1).find("radius: " + set.drawn(1).at(0).text) != std::string::npos, "Dataset::scene_yaml, drawn");
-  expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2), "Dataset::scene, noise_seed");
+  expect(set.scene(1).objects.size() == 1 && set.noise_seed(1) != set.noise_seed(2) && set.split(1) == "train",
+         "Dataset::scene, noise_seed, split");
   const tofray::DatasetPlan plan =
       tofray::plan_dataset({.set = (folder / "set.yaml").native(), .folder = folder / "set", .pilot = 1, .shard_samples = 2});
   expect(plan.shards == 2 && tofray::read_plan(folder / "set").id == plan.id, "plan_dataset, read_plan");

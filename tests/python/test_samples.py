@@ -117,6 +117,25 @@ def test_a_hole_is_no_sample(merged: pathlib.Path, tmp_path: pathlib.Path) -> No
         samples[13]
 
 
+def test_splits_are_apart_and_the_same_stored_and_computed(tmp_path: pathlib.Path) -> None:
+    (tmp_path / "set.yaml").write_text(SET.replace("views: 2", "views: 2\nsplit: {by: scene, test: 30 %, validation: 20 %}"), encoding="utf-8")
+    tool("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--shard-samples", "3", "--pilot", "1")
+    tool("run", tmp_path / "out")
+    tool("merge", tmp_path / "out")
+    a_set, rows = tofray.Dataset(tmp_path / "set.yaml"), []
+    for split in ("train", "validation", "test"):
+        stored, computed = (tofray.open_dataset(tmp_path / "out", computed=computed, split=split) for computed in (False, True))
+        assert stored.rows.tolist() == computed.rows.tolist() == [row for row in range(40) if a_set.split(row // 2) == split]
+        assert sorted(row for batch in stored.stream(4) for row in batch["row"]) == stored.rows.tolist()
+        row = int(stored.rows[0])
+        assert stored[row]["json"]["split"] == computed[row]["json"]["split"] == split
+        assert pickle.loads(pickle.dumps(stored)).rows.tolist() == stored.rows.tolist()
+        rows += stored.rows.tolist()
+    assert sorted(rows) == list(range(40))
+    with pytest.raises(ValueError, match="expected train, validation, test or None"):
+        tofray.open_dataset(tmp_path / "out", split="training")
+
+
 @pytest.mark.parametrize(("change", "message"), [
     (lambda folder: (folder / "plan.json").unlink(), "there is no plan in this folder"),
     (lambda folder: (folder.parent / "set.yaml").write_text("name: other\n", encoding="utf-8"), "this is not the set of"),

@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "files/json.h"
 #include "shards/layout.h"
 #include "small_set.h"
 #include "support/samples.h"
@@ -227,6 +228,29 @@ TEST(command, tells_what_it_did_and_ends_with_1_where_something_is_missing) {
     EXPECT_EQ(refused.code, 2);
     EXPECT_TRUE(has(refused.err, expected)) << refused.err;
   }
+}
+
+TEST(submit, prints_what_other_engines_take) {
+  const SmallSet set;
+  const auto printed = [&](const char* engine, const char* tasks) {
+    return test::run({"dataset", "submit", set.out().native(), "--engine", engine, "--tasks", tasks, "--threads", "2", "--print"});
+  };
+  const Result kubernetes = printed("kubernetes", "4");
+  EXPECT_EQ(kubernetes.code, 0) << kubernetes.err;
+  const files::Json job = files::parse_json(kubernetes.out, "job");
+  EXPECT_EQ(*job.find("metadata")->find("name")->string(), "tofray-small");
+  std::uint64_t completions = 0;
+  EXPECT_TRUE(job.find("spec")->find("completions")->unsigned_integer(completions));
+  EXPECT_EQ(completions, 4U);
+  EXPECT_TRUE(has(kubernetes.out, "--part \\\"$JOB_COMPLETION_INDEX/4\\\" --threads 2 --quiet")) << kubernetes.out;
+  const Result aws = printed("aws-batch", "4");
+  EXPECT_EQ(*files::parse_json(aws.out, "job").find("jobName")->string(), "tofray-small");
+  EXPECT_TRUE(has(aws.out, "--part \\\"$AWS_BATCH_JOB_ARRAY_INDEX/4\\\"")) << aws.out;
+  EXPECT_TRUE(has(printed("aws-batch", "1").err, "2 to 10000 jobs, not 1"));
+  EXPECT_TRUE(has(printed("sge", "1").err, "slurm, kubernetes or aws-batch"));
+  const Result unprinted = test::run({"dataset", "submit", set.out().native(), "--engine", "kubernetes"});
+  EXPECT_EQ(unprinted.code, 2);
+  EXPECT_TRUE(has(unprinted.err, "expected --print")) << unprinted.err;
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ using out_test::error_of;
 using out_test::Python;
 
 TEST(shards, are_the_same_bytes_in_any_number_of_parts_and_threads) {
-  EXPECT_EQ(undisturbed().size(), 8U * 2 + 11)
-      << "tars and records; plan, sums, statistics, list, card, croissant, preview, four of the index";
+  EXPECT_EQ(undisturbed().size(), 8U * 2 + 12)
+      << "tars and records; plan, sums, statistics, list, card, croissant, preview, five of the index";
   for (const auto& [parts, threads] : {std::pair<std::uint64_t, int>{1, 3}, {2, 1}, {7, 2}}) {
     const SmallSet set;
     for (std::uint64_t part = parts; part-- > 0;) set.run(part, parts, threads);
@@ -109,6 +109,28 @@ TEST(summary, shows_samples_and_says_how_to_make_them_again) {
   const std::string part = page.substr(page.find("Fewest valid pixels"));
   EXPECT_EQ(part.find("depth of sample " + std::to_string(worst) + "\""), part.find("depth of sample "));
   EXPECT_TRUE(has(part, "tofray dataset scene set.yaml " + std::to_string(worst)));
+}
+
+TEST(summary, tells_draws_that_miss_their_law) {
+  SetText text;
+  text.samples = "400", text.more = "split: {by: scene, test: 25 %}\n";
+  const SmallSet set(text, 200);
+  set.run();
+  EXPECT_EQ(merge_shards(set.out()).missed_laws, "");
+  const std::string card = content(set.out() / "card.md");
+  EXPECT_TRUE(has(card, "| `objects/ball/radius` | uniform | 400 |")) << card;
+  EXPECT_TRUE(has(card, "## Splits") && has(card, "| test | ") && !has(card, "| validation |"));
+  // As a sampler would that draws the lower half of its law alone.
+  for (std::uint64_t shard = 0; shard < 2; ++shard) {
+    shards::Record record = *shards::read_record(set.out(), shard);
+    auto& counts = record.statistics.draws.at("objects/ball/radius").counts;
+    for (std::size_t i = 8; i < 16; ++i) counts[i - 8] += counts[i], counts[i] = 0;
+    write(set.out() / shards::record_name(shard), shards::record_text(record));
+  }
+  const MergeResult merged = merge_shards(set.out());
+  EXPECT_TRUE(has(merged.missed_laws, "objects/ball/radius (uniform): χ² 4")) << merged.missed_laws;
+  EXPECT_TRUE(has(content(set.out() / "card.md"), "**misses its law**"));
+  EXPECT_TRUE(has(content(set.out() / "preview.html"), "<strong>misses its law</strong>"));
 }
 
 TEST(summary, is_a_croissant_whose_sums_are_right) {

@@ -292,7 +292,7 @@ std::vector<Command> make() {
                "damaged.\n"
                "docs/datasets.md has all forms, and what lies in a shard.\n",
        .options = {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch",
-                   "--print", "--theme", "--scale", "--threads", "--json", "--quiet"},
+                   "--engine", "--print", "--theme", "--scale", "--threads", "--json", "--quiet"},
        .least_words = 2,
        .most_words = 3,
        .run = run_dataset,

@@ -50,6 +50,11 @@ void take_sbatch(Options& o, const std::string& value) {
   o.shards.sbatch.push_back(value);
 }
 
+void take_engine(Options& o, const std::string& value) {
+  if (value != "slurm" && value != "kubernetes" && value != "aws-batch") refuse("--engine", value, "slurm, kubernetes or aws-batch");
+  o.shards.engine = value;
+}
+
 }  // namespace
 
 std::vector<OptionSpec> dataset_specs() {
@@ -70,6 +75,7 @@ std::vector<OptionSpec> dataset_specs() {
        [](Options& o, const std::string& v) { o.shards.tasks = whole("--tasks", v, 1, most, "a whole number of 1 to 1000000000"); }},
       {"--sbatch", 0, "OPTION", "submit: an option of sbatch, such as --time=2:00:00 or --partition=long; as often as you like",
        take_sbatch},
+      {"--engine", 0, "NAME", "submit: slurm; with --print kubernetes or aws-batch (slurm)", take_engine, "slurm kubernetes aws-batch"},
       {"--print", 0, nullptr, "submit: print the script, submit nothing",
        [](Options& o, const std::string&) { o.shards.print_only = true; }},
       {"--partial", 0, nullptr, "merge: of the shards that are there", [](Options& o, const std::string&) { o.shards.partial = true; }},

@@ -89,6 +89,7 @@ struct Options {
     bool partial = false, print_only = false;
     std::uint64_t tasks = 0;          ///< 0: chosen
     std::vector<std::string> sbatch;  ///< options of sbatch
+    std::string engine = "slurm";     ///< or kubernetes, aws-batch
   } shards;                           ///< of `tofray dataset`
   bool json = false, quiet = false, compare = false, clean = false, sources = false, raw = false, csv = false, auto_exposure = false,
        plan = false;

@@ -268,7 +268,7 @@ const std::vector<Verb>& verbs() {
       {"preview", run_preview_of_set, nullptr, {"--output", "--theme", "--scale"}},
       {"plan", nullptr, run_dataset_plan, {"--output", "--pilot", "--shard-samples"}},
       {"run", nullptr, run_dataset_run, {"--part", "--shards"}},
-      {"submit", nullptr, run_dataset_submit, {"--tasks", "--sbatch", "--print"}},
+      {"submit", nullptr, run_dataset_submit, {"--tasks", "--sbatch", "--engine", "--print"}},
       {"status", nullptr, run_dataset_status, {}},
       {"verify", nullptr, run_dataset_verify, {"--part", "--shards", "--recompute"}},
       {"merge", nullptr, run_dataset_merge, {"--partial"}},
@@ -279,7 +279,7 @@ const std::vector<Verb>& verbs() {
 /// An option that means nothing to the verb is a mistake.
 void refuse_other_options(const Verb& verb, const Options& options) {
   for (const char* option : {"--output", "--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks",
-                             "--sbatch", "--print", "--theme", "--scale"}) {
+                             "--sbatch", "--engine", "--print", "--theme", "--scale"}) {
     const bool typed = std::any_of(options.typed.begin(), options.typed.end(), [&](const std::string& word) {
       return word == option || word.starts_with(std::string(option) + "=") ||
              (option == std::string_view("--output") && word.starts_with("-o"));

@@ -227,14 +227,20 @@ int run_dataset_merge(const Options& options) {
         .set("samples", result.samples)
         .set("holes", result.holes)
         .set("bytes", result.bytes)
-        .set("valid", valid);
+        .set("valid", valid)
+        .set("missed_laws", result.missed_laws);
     print(files::json_text(json.set("files", Json::list(result.files)), 2) + "\n");
-    return 0;
+    return result.missed_laws.empty() ? 0 : 1;
   }
   print(fmt::format("{} in {}, {}; {:.1f} % of their pixels are valid{}\n  wrote  {}\n", counted(result.samples, "sample"),
                     counted(result.shards, "shard"), set_size_text(static_cast<double>(result.bytes)), 100 * valid,
                     result.holes > 0 ? fmt::format("; {}", counted(result.holes, "hole")) : "", base::listed(result.files, "and")));
-  return 0;
+  if (result.missed_laws.empty()) return 0;
+  say(fmt::format(
+      "error: values miss the law that they are drawn by: {}\n  right samplers do that once in a million times: `tofray dataset verify {} "
+      "--recompute 100%` and another `seed` tell chance from a fault\n",
+      result.missed_laws, folder_of(options)));
+  return 1;
 }
 
 }  // namespace tofray::app

@@ -14,7 +14,7 @@
 #include "tofray/error.h"
 #include "tofray/shards.h"
 
-/// `tofray dataset submit`: the shards that are missing as an array of jobs of Slurm, and a merge behind them.
+/// `tofray dataset submit`: the shards that are missing as an array of jobs of Slurm, and a merge behind them; for other engines what they take, to print.
 namespace tofray::app {
 
 namespace {
@@ -65,13 +65,77 @@ std::string head(const std::string& name, const std::string& log, const Options&
   return out;
 }
 
+/// An array of jobs, whatever runs it.
+struct JobArray {
+  std::string name;  ///< letters, digits, - and _
+  std::string folder;
+  std::uint64_t tasks = 1;
+  int threads = 1;
+  /// What one of them runs, in a shell. @param index  where its number stands
+  [[nodiscard]] std::string command(const char* index) const {
+    return fmt::format("exec tofray dataset run {} --part \"${}/{}\" --threads {} --quiet", shell_word(folder), index, tasks, threads);
+  }
+};
+
+std::string kubernetes_job(const JobArray& of) {
+  std::string name = "tofray-" + of.name;
+  for (char& c : name) c = c == '_' ? '-' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  using files::Json;
+  // Wrong use, exit code 2, is the same again however often it is tried.
+  Json rule = Json::object()
+                  .set("action", "FailIndex")
+                  .set("onExitCodes", Json::object().set("operator", "In").set("values", Json::array().push(std::uint64_t{2})));
+  Json mount = Json::object().set("name", "set").set("mountPath", of.folder);
+  Json container = Json::object().set("name", "tofray").set("image", "IMAGE");
+  container.set("command", Json::array().push("sh").push("-c").push(of.command("JOB_COMPLETION_INDEX")));
+  container.set("volumeMounts", Json::array().push(std::move(mount)));
+  Json volume = Json::object().set("name", "set").set("persistentVolumeClaim", Json::object().set("claimName", "CLAIM"));
+  Json pod = Json::object().set("restartPolicy", "Never").set("containers", Json::array().push(std::move(container)));
+  pod.set("volumes", Json::array().push(std::move(volume)));
+  Json spec = Json::object().set("completions", of.tasks).set("parallelism", of.tasks).set("completionMode", "Indexed");
+  spec.set("backoffLimitPerIndex", std::uint64_t{3})
+      .set("podFailurePolicy", Json::object().set("rules", Json::array().push(std::move(rule))));
+  spec.set("template", Json::object().set("spec", std::move(pod)));
+  Json job = Json::object().set("apiVersion", "batch/v1").set("kind", "Job").set("metadata", Json::object().set("name", name));
+  return files::json_text(job.set("spec", std::move(spec)), 2) + "\n";
+}
+
+std::string aws_batch_job(const JobArray& of) {
+  constexpr std::uint64_t fewest = 2, most = 10'000;
+  if (of.tasks < fewest || of.tasks > most)
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("error: an array of AWS Batch has 2 to 10000 jobs, not {}\n  expected --tasks within, and as many shards at least",
+                    of.tasks));
+  using files::Json;
+  Json last = Json::object().set("onExitCode", "2").set("action", "EXIT"),
+       others = Json::object().set("onExitCode", "*").set("action", "RETRY");
+  Json retries =
+      Json::object().set("attempts", std::uint64_t{3}).set("evaluateOnExit", Json::array().push(std::move(last)).push(std::move(others)));
+  Json command = Json::array().push("sh").push("-c").push(of.command("AWS_BATCH_JOB_ARRAY_INDEX"));
+  Json job = Json::object().set("jobName", "tofray-" + of.name).set("jobQueue", "QUEUE").set("jobDefinition", "DEFINITION");
+  job.set("arrayProperties", Json::object().set("size", of.tasks)).set("retryStrategy", std::move(retries));
+  return files::json_text(job.set("containerOverrides", Json::object().set("command", std::move(command))), 2) + "\n";
+}
+
+/// Engines whose programs are not here.
+int print_for_other_engine(const JobArray& of, const Options& options) {
+  if (!options.shards.print_only)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("error: submit hands jobs to Slurm alone\n  expected --print, for what {} takes", options.shards.engine));
+  if (!options.shards.sbatch.empty())
+    throw Error(ErrorKind::bad_input, fmt::format("error: --sbatch is of Slurm\n  expected none with --engine {}", options.shards.engine));
+  print(options.shards.engine == "kubernetes" ? kubernetes_job(of) : aws_batch_job(of));
+  return 0;
+}
+
 }  // namespace
 
 int run_dataset_submit(const Options& options) {
   const std::filesystem::path folder = std::filesystem::absolute(options.words[1]);
   const DatasetPlan plan = read_plan(folder);
   const DatasetStatus status = dataset_status(folder);
-  if (status.missing.empty() && !options.shards.print_only) {
+  if (status.missing.empty() && options.shards.engine == "slurm" && !options.shards.print_only) {
     if (options.json)
       print(files::json_text(files::Json::object().set("tasks", 0)) + "\n");
     else
@@ -81,7 +145,8 @@ int run_dataset_submit(const Options& options) {
   constexpr std::uint64_t usual_tasks = 100;
   std::uint64_t tasks = options.shards.tasks != 0 ? options.shards.tasks : usual_tasks;
   tasks = std::clamp<std::uint64_t>(tasks, 1, status.shards);
-  if (!options.shards.print_only) {
+  const bool slurm = options.shards.engine == "slurm";
+  if (slurm && !options.shards.print_only) {
     const std::uint64_t most = largest_array();
     if (tasks > most)
       throw Error(ErrorKind::bad_input,
@@ -90,6 +155,7 @@ int run_dataset_submit(const Options& options) {
   std::string name;
   for (const char c : plan.name)
     name += (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ? c : '_';
+  if (!slurm) return print_for_other_engine({name, folder.native(), tasks, std::max(1, options.threads)}, options);
   const std::string tool = shell_word(own_path()), set = shell_word(folder.native());
   // The shell becomes srun, which hands signals on to the step: bash would keep them until its child ends.
   std::string work = head("tofray-" + name, (folder / "log/slurm-%A_%a.out").native(), options);
