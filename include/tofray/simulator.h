@@ -48,7 +48,7 @@ struct FrameRequest {
 
 /// One step of how a frame is computed: a pass over all of its pixels, before the next one begins.
 struct PlanStep {
-  std::string pass;         ///< "from_rays", "bounces", "range_filter" …
+  std::string name;         ///< of the pass: "from_rays", "bounces", "range_filter" …
   std::string does;         ///< what it does, in a few words
   std::string part;         ///< "ground truth", "sample 2 of 9", "paths, step 1": what of it, where it is done in parts
   std::string over;         ///< "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once

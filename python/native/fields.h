@@ -168,7 +168,7 @@ TOFRAY_FIELDS(Scene, &Scene::name, &Scene::source, &Scene::camera, &Scene::ambie
               &Scene::world_up, &Scene::files, &Scene::classes)
 TOFRAY_FIELDS(RanOn, &RanOn::backend, &RanOn::device, &RanOn::isa, &RanOn::threads, &RanOn::block_size, &RanOn::occupancy,
               &RanOn::fallback_reason)
-TOFRAY_FIELDS(PlanStep, &PlanStep::pass, &PlanStep::does, &PlanStep::part, &PlanStep::over, &PlanStep::pieces)
+TOFRAY_FIELDS(PlanStep, &PlanStep::name, &PlanStep::does, &PlanStep::part, &PlanStep::over, &PlanStep::pieces)
 TOFRAY_FIELDS(ObjectInView, &ObjectInView::object, &ObjectInView::name, &ObjectInView::pixels, &ObjectInView::nearest_m, &ObjectInView::farthest_m,
               &ObjectInView::endless, &ObjectInView::low, &ObjectInView::high, &ObjectInView::behind_camera, &ObjectInView::around_camera)
 TOFRAY_FIELDS(ObjectPlace, &ObjectPlace::name, &ObjectPlace::class_name, &ObjectPlace::position, &ObjectPlace::rotation, &ObjectPlace::endless,

@@ -2163,6 +2163,45 @@ class RanOn(Record):
         self.fallback_reason = fallback_reason
 
 
+class PlanStep(Record):
+    """One step of how a frame is computed: a pass over all of its pixels, before the next one begins.
+
+    Attributes
+    ----------
+    name : str
+        Of the pass: "from_rays", "bounces", "range_filter" ….
+    does : str
+        What it does, in a few words.
+    part : str
+        "ground truth", "sample 2 of 9", "paths, step 1": what of it, where it is done in parts.
+    over : str
+        "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once.
+    pieces : int
+        How many of these there are.
+    """
+    __slots__ = ("name", "does", "part", "over", "pieces")
+    name: str
+    does: str
+    part: str
+    over: str
+    pieces: int
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        does: str = '',
+        part: str = '',
+        over: str = '',
+        pieces: int = 0,
+    ) -> None:
+        self.name = name
+        self.does = does
+        self.part = part
+        self.over = over
+        self.pieces = pieces
+
+
 class Pinhole(PinholeMethods):
     """A camera without distortion, as renderers have it: what is at (x, y, z) before it is seen at
     (fx·x/z + cx, fy·y/z + cy).
@@ -3450,9 +3489,10 @@ __all__ = [
     "Interference", "Calibration", "SpreadSpectrum", "Readout", "AutoExposure", "Camera",
     "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
     "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
-    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "Pinhole",
-    "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace", "SceneFinding",
-    "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances",
-    "CameraReport", "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare",
-    "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
+    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "PlanStep",
+    "Pinhole", "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace",
+    "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt",
+    "NoiseAtDistances", "CameraReport", "ChainRawFrame", "ChainPhase", "UnwrapCandidate",
+    "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark",
+    "Inputs", "RunResult",
 ]

@@ -336,7 +336,7 @@ TEST_F(first_hour, says_which_passes_a_frame_takes) {
   for (const char* words : {"from_rays        light, sample 4 of 4", "from_arrays      from the light image", "154 tiles"})
     EXPECT_TRUE(has(plan.out, words)) << words << " in\n" << plan.out;
   const Result told = tool({"inspect", "card", "--plan", "--json"});
-  EXPECT_EQ(files::parse_json(told.out, "plan").find("plan")->items()->front().find("pass")->string()->compare("from_rays"), 0) << told.out;
+  EXPECT_EQ(files::parse_json(told.out, "plan").find("plan")->items()->front().find("name")->string()->compare("from_rays"), 0) << told.out;
   expect_refused({"inspect", "card", "--plan", "--pixel", "1,1"}, "--plan computes nothing");
   EXPECT_EQ(tool({"render", "card", "--emit", "npz", "--quiet", "-o", "out"}).code, 0);
   expect_refused({"inspect", "out/frame.npz", "--plan"}, "this file is finished");

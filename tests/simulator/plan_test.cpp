@@ -18,7 +18,7 @@ namespace {
 std::vector<std::string> plan_of(const Scene& scene, const Camera& camera, const SimulatorOptions& options = {}) {
   std::vector<std::string> out;
   for (const PlanStep& step : Simulator(scene, camera, options).plan())
-    out.push_back(step.part.empty() ? step.pass : step.pass + ": " + step.part);
+    out.push_back(step.part.empty() ? step.name : step.name + ": " + step.part);
   return out;
 }
 
@@ -102,5 +102,5 @@ TEST(plan, counts_pieces_and_leaves_frames_as_they_are) {
   EXPECT_EQ(plan[2].over, "bands of rows");
   EXPECT_EQ(plan[2].pieces, 4) << "of 8 rows";
   EXPECT_FALSE(plan[2].does.empty());
-  EXPECT_EQ(simulator.frame(1).depth.z_m, Simulator(wall(1.5), camera).frame(1).depth.z_m);
+  EXPECT_EQ(simulator.frame(1).raw.tap_a, Simulator(wall(1.5), camera).frame(1).raw.tap_a);
 }

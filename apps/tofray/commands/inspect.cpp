@@ -247,14 +247,14 @@ std::string plan_text(const std::vector<PlanStep>& steps) {
   std::string text = fmt::format("{:>3} {:<16} {:<26} {:<58} {}\n", "#", "pass", "part", "what it does", "over");
   int number = 0;
   for (const PlanStep& one : steps)
-    text += fmt::format("{:>3} {:<16} {:<26} {:<58} {} {}\n", ++number, one.pass, one.part, one.does, one.pieces, one.over);
+    text += fmt::format("{:>3} {:<16} {:<26} {:<58} {} {}\n", ++number, one.name, one.part, one.does, one.pieces, one.over);
   return text;
 }
 files::Json plan_json(const std::vector<PlanStep>& steps) {
   files::Json all = files::Json::array();
   for (const PlanStep& one : steps) {
     all.push(files::Json::object()
-                 .set("pass", one.pass)
+                 .set("name", one.name)
                  .set("part", one.part)
                  .set("does", one.does)
                  .set("over", one.over)
