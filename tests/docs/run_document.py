@@ -135,6 +135,10 @@ class Document:
         for line in text.split("\n"):
             if line.startswith("tofray bench") and "--frames" not in line:
                 line = line.replace("tofray bench", f"tofray bench {exceptions.FEW_FRAMES}", 1)
+            if re.match(r"tofray (view|stream)( |$)", line):
+                line = re.sub(r"\s+# .*", "", line)   # what comes around it would be a part of the comment
+            if line == "tofray stream":   # a sentence names the command
+                line += " --help"
             if re.match(r"tofray view( |$)", line):
                 ends = "--export" in line
                 line = exceptions.VIEW_EXPORT.format(line) if ends else exceptions.VIEW.format(line if "--port" in line else line + " --port 0")

@@ -90,7 +90,7 @@ def test_a_simulators_functions_are_there() -> None:
     body = re.search(r"^class Simulator \{(.*?)^\};", TEXT["simulator.h"], re.M | re.S)
     assert body is not None
     names = set(re.findall(r"(\w+)\([^;]*\)(?: const)?;", body[1].split("private:")[0])) - {"Simulator"}
-    assert names - {"operator"} == {"frame", "frames", "frames_on_device", "ran_on"}
+    assert names - {"operator"} == {"frame", "frames", "frames_on_device", "plan", "ran_on"}
     assert all(name in LEFT_OUT or hasattr(tofray.Simulator, name) for name in names if name != "operator")
 
 
