@@ -113,12 +113,10 @@ def make_shards(client: Any, folder: str, retries: int = 3, threads: int = 1) ->
     Error
         Where some are still missing when all tasks have ended: which, and what the first of them said.
     """
-    from distributed import wait
-
     wanted = missing_shards(folder)
     # What is asked is whether shards are there, not what tasks have become: one whose worker died behind its last byte is no fault.
     futures = [client.submit(make_shard, folder, shard, threads, key=f"tofray-{os.getpid()}-{shard}", retries=retries, pure=False) for shard in wanted]
-    wait(futures)
+    client.gather(futures, errors="skip")
     left = missing_shards(folder)
     if left:
         said = next((str(one.exception()) for one in futures if one.status == "error"), "nothing")

@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import os
 import pathlib
+import signal
 import subprocess
 import sys
 import threading
@@ -14,29 +16,23 @@ import time
 from distributed import Client, LocalCluster
 
 
-def kill_a_worker(address: str, folder: pathlib.Path, until: float) -> None:
+def kill_a_worker(cluster: LocalCluster, folder: pathlib.Path, until: float) -> None:
     """As soon as two shards are there and the worker computes a third one, by the kernel."""
-    with Client(address, set_as_default=False) as client:
+    processes = {worker.worker_address: worker.pid for worker in cluster.workers.values()}
+    with Client(cluster.scheduler_address, set_as_default=False) as client:
         while time.monotonic() < until:
             busy = [worker for worker, tasks in client.processing().items() if tasks]
             if busy and len(list(folder.glob("shards/000/*.json"))) >= 2:
-                client.run(suicide, workers=busy[:1], wait=False)
+                os.kill(processes[busy[0]], signal.SIGKILL)
                 return
             time.sleep(0.02)
-
-
-def suicide() -> None:
-    import os
-    import signal
-
-    os.kill(os.getpid(), signal.SIGKILL)
 
 
 def main() -> int:
     folder = pathlib.Path(sys.argv[1])
     with LocalCluster(n_workers=3, threads_per_worker=1, dashboard_address=None, host="127.0.0.1") as cluster:
         before = {worker.pid for worker in cluster.workers.values()}
-        killer = threading.Thread(target=kill_a_worker, args=(cluster.scheduler_address, folder, time.monotonic() + 300))
+        killer = threading.Thread(target=kill_a_worker, args=(cluster, folder, time.monotonic() + 300))
         killer.start()
         done = subprocess.run([sys.executable, "-m", "tofray", "dask", str(folder), "--scheduler", cluster.scheduler_address], capture_output=True, text=True, check=False)
         killer.join()

@@ -114,9 +114,8 @@ __global__ void __launch_bounds__(DeriveScene::most_threads) tofray_derive(const
 /// Registers for all threads of a block: a kernel that may take more of them serves the smaller blocks.
 constexpr int few_threads = 256;
 
-/// Threads of a kernel's blocks where `block_size` is asked for.
 template <class P>
-unsigned threads_of_block(int block_size) {
+unsigned threads_of(int block_size) {
   return static_cast<unsigned>(block_size < P::most_threads ? block_size : P::most_threads);
 }
 
@@ -137,14 +136,14 @@ cudaError_t launch(FromRays, const Launch& what, cudaStream_t stream) {
   return what.block_size <= few_threads ? launch_pixels<few_threads>(what, stream) : launch_pixels<max_block_size>(what, stream);
 }
 cudaError_t launch(DeriveScene, const Launch& what, cudaStream_t stream) {
-  const unsigned block = threads_of_block<DeriveScene>(what.block_size),
+  const unsigned block = threads_of<DeriveScene>(what.block_size),
                  units = static_cast<unsigned>(scene::unit_count(what.common->setup.scene, what.batch.derive));
   tofray_derive<<<dim3((units + block - 1) / block, static_cast<unsigned>(what.batch.frames)), block, 0, stream>>>(what.batch);
   return cudaGetLastError();
 }
 template <class P>
 cudaError_t launch(P, const Launch& what, cudaStream_t stream) {
-  const unsigned block = threads_of_block<P>(what.block_size), units = static_cast<unsigned>(units_of<P>(what.common->setup));
+  const unsigned block = threads_of<P>(what.block_size), units = static_cast<unsigned>(units_of<P>(what.common->setup));
   const dim3 grid((units + block - 1) / block, static_cast<unsigned>(what.batch.frames));
   tofray_pass<P><<<grid, block, 0, stream>>>(*what.common, what.batch, what.input);
   return cudaGetLastError();
@@ -186,6 +185,12 @@ cudaError_t find_kernels() {
       },
       pipeline::Passes{});
   return status;
+}
+
+int threads_of_block(Pass number, int block_size) {
+  int threads = 0;
+  pipeline::with_pass(number, [&](auto pass) { threads = static_cast<int>(threads_of<decltype(pass)>(block_size)); });
+  return threads;
 }
 
 const void* kernel_function(Pass number, int block_size) {
