@@ -84,7 +84,9 @@ TEST(judge, tells_samplers_that_miss_their_law) {
   EXPECT_TRUE(uniform_from(1.1).misses());
   EXPECT_FALSE(drawn_by([](auto bits) { return log_uniform_place(log_uniform(1, 4, bits), 1, 4); }).misses());
   EXPECT_TRUE(drawn_by([](auto bits) { return log_uniform_place(uniform(1, 4, bits), 1, 4); }).misses());
-  for (const auto& [low, high] : {std::pair{-endless, endless}, {2.0, endless}, {-endless, -2.0}, {2.0, 2.5}, {-1.0, 0.5}}) {
+  for (const std::pair<double, double>& within :
+       {std::pair{-endless, endless}, {2.0, endless}, {-endless, -2.0}, {2.0, 2.5}, {-1.0, 0.5}}) {
+    const double low = within.first, high = within.second;
     EXPECT_FALSE(drawn_by([&](auto bits) { return normal_place(normal(0, 1, low, high, bits), 0, 1, low, high); }).misses()) << low;
     EXPECT_TRUE(drawn_by([&](auto bits) {
                   return normal_place(std::clamp(normal(0, 1.2, -endless, endless, bits), low, high), 0, 1, low, high);
