@@ -63,7 +63,7 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
 }
-/// The same, not inlined: for walks that are not written out.
+/// Stage 3, not inlined: for walks that are not written out.
 template <class F>
 TOFRAY_APART void collect_noinline(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
                                    const flow::Light<F>& light, Pack<F>& pack) {

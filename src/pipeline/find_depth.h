@@ -53,7 +53,7 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
-/// The same, not inlined: for walks that are not written out, and for recordings.
+/// Stage 4, not inlined: for walks that are not written out, and for recordings.
 template <class F>
 TOFRAY_APART void find_depth_noinline(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
                                       const num::Mask<F>& clipped, const F& vignetting) {

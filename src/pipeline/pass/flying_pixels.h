@@ -16,7 +16,7 @@ TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   job.out.flags[at] = static_cast<std::uint16_t>(job.out.flags[at] | depth::flying_pixel);
 }
 
-/// The same for one row.
+/// Flags the flying pixels of a row.
 template <class F>
 TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;

@@ -56,6 +56,9 @@ TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width,
   num::store(to + at, sum, p.count);
 }
 
+/// Where some pixels side by side lie in their row.
+TOFRAY_FN RowPart row_part(const PassWork& w, const Pixels& p) { return {p.index % w.s.lens.width, p.index / w.s.lens.width, p.count}; }
+
 /// Calls plane(from, rows, to) for each plane of the image, with what is scattered, what is scattered along rows alone, and all of it.
 template <class Plane>
 TOFRAY_FN void each_scattered_plane(const PassWork& w, const Plane& plane) {
@@ -77,14 +80,14 @@ struct ScatterRows {
   template <class F>
   TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
     const int width = w.s.lens.width;
-    const RowPart part{p.index % width, p.index / width, p.count};
+    const RowPart part = row_part(w, p);
     each_scattered_plane(
         w, [&](const float* from, float* rows, float*)
                __attribute__((always_inline)) { scatter_row<F>(w.s.scatter.term[w.item], width, part, from, rows); });
   }
 };
 
-/// … and along columns; a kernel that is not separable: both at once.
+/// The light image along columns; with a kernel that is not separable along both at once.
 struct ScatterColumns {
   static constexpr const char* name = "scatter_columns";
   static constexpr const char* does = "scattered light along columns, or both at once";
@@ -94,7 +97,7 @@ struct ScatterColumns {
   template <class F>
   TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
     const int width = w.s.lens.width;
-    const RowPart part{p.index % width, p.index / width, p.count};
+    const RowPart part = row_part(w, p);
     each_scattered_plane(
         w, [&](const float* from, float* rows, float* to)
                __attribute__((always_inline)) { scatter_column<F>(w.s.scatter, w.item, width, w.s.lens.height, part, from, rows, to); });
