@@ -207,3 +207,31 @@ test("up to eight pins, each with the least number that is free, marked in every
   await page.locator("[data-pinned]").first().waitFor({ state: "detached" });
   assert.ok(!wants().includes("noise_m"), wants().join());
 });
+
+test("a pixel that is pinned between a frame's coming and its drawing is counted in it", async () => {
+  const { url } = await view(words);
+  const tab = await shown(url);
+  const { page } = tab;
+  await stand_at(tab, 0);
+  await beside(tab, "Watch");
+  await page.locator(".stage").first().focus();
+  await page.keyboard.press("ArrowRight");
+  const received = await page.evaluate(() => {
+    window.held = [];
+    window.draws = window.requestAnimationFrame;
+    window.requestAnimationFrame = (draw) => window.held.push(draw);   // nothing is drawn until it is let go
+    return window.tofray.counters.received;
+  });
+  await page.keyboard.press("p");
+  await page.waitForFunction((before) => window.tofray.counters.received > before, received, { polling: 20 });
+  const drawn = await page.evaluate(() => window.tofray.counters.drawn);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("p");
+  assert.equal(await page.evaluate(() => window.tofray.counters.drawn), drawn);
+  await page.evaluate(() => {
+    window.requestAnimationFrame = window.draws;
+    for (const draw of window.held) requestAnimationFrame(draw);
+  });
+  await page.locator("[data-pinned]").nth(1).getByText("1 frame").first().waitFor();
+  assert.deepEqual((await csv(tab)).map((row) => row.frames), ["1", "1", "1", "1"]);
+});

@@ -17,7 +17,7 @@ import { forget_tools, start_tools } from "./tools";
 import type { Hello, ServerMessage, State } from "./protocol";
 import { choose_arrays, controls, difference_scales, fault, fitted, frame, hello, key_faults, link, other, pixel, pixel_b, raw_scales, state, stats } from "./store";
 import { offer_to_tests } from "./test_hooks";
-import { count, start_watching, statistics_anew } from "./watch";
+import { frame_came, start_watching, statistics_anew } from "./watch";
 import { read_frame } from "./wire";
 import { forget_why, start_why, why_arrived, why_refused } from "./why";
 
@@ -101,7 +101,7 @@ function text_arrived(message: ServerMessage): void {
 function frame_received(message: ArrayBuffer): void {
   const fresh = read_frame(message);
   if (fresh.answers) return arrays_arrived(fresh);
-  count(fresh);
+  frame_came(fresh);
   frame_arrived(fresh);
 }
 

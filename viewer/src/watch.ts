@@ -6,7 +6,7 @@
 import { effect, signal } from "@preact/signals";
 import { copy } from "./download";
 import type { Frame, Side } from "./protocol";
-import { array_of, cursor, frame, frame_b, hello, of_b, other, size, spoken } from "./store";
+import { array_of, cursor, hello, of_b, other, size, spoken } from "./store";
 
 export const most_pins = 8;
 
@@ -115,9 +115,18 @@ function at_of(pin: Pin, of: Frame): { u: number; v: number } {
   return { u: Math.floor(((pin.u + 0.5) * of.width) / width), v: Math.floor(((pin.v + 0.5) * of.height) / height) };
 }
 
-/** What a frame has of the pinned pixels. Drafts are other pictures. */
-export function count(of: Frame): void {
-  if (of.draft || pins.peek().length === 0) return;
+/** The latest that came, drawn or not. Drafts are other pictures. */
+const newest: Record<Side, Frame | undefined> = { a: undefined, b: undefined };
+
+/** What a frame that has come has of the pinned pixels. */
+export function frame_came(of: Frame): void {
+  if (of.draft) return;
+  newest[of.side] = of;
+  count(of);
+}
+
+function count(of: Frame): void {
+  if (pins.peek().length === 0) return;
   const [z, noise, range] = ["z_m", "noise_m", "range_m"].map((name) => array_of(of, name)?.values);
   if (z === undefined || noise === undefined || range === undefined) return;
   for (const array of watched_arrays()) {
@@ -174,7 +183,7 @@ export function toggle_pin(): void {
   while (pins.value.some((one) => one.number === number)) ++number;
   pins.value = [...pins.value, { number, u: at.u, v: at.v }].sort((a, b) => a.number - b.number);
   spoken.value = `Pixel ${at.u}, ${at.v} is pin ${number}`;
-  for (const drawn of [frame.peek(), frame_b.peek()]) if (drawn !== undefined) count(drawn);   // if it has what is watched; else it comes again, with that
+  for (const came of [newest.a, newest.b]) if (came !== undefined) count(came);   // if it has what is watched; else it comes again, with that
 }
 
 /** Another array than before begins to be counted. */
@@ -228,6 +237,7 @@ export async function copy_csv(): Promise<void> {
 
 /** Another second state than before begins anew. */
 export function forget_watched_b(): void {
+  newest.b = undefined;
   for (const key of [...moments.keys()]) if (key.split(" ")[1] === "b") moments.delete(key);
 }
 
