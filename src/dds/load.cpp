@@ -51,16 +51,16 @@ std::vector<fs::path> usual_folders() {
 
 }  // namespace
 
-std::unique_ptr<Publisher> open_publisher(const Settings& settings) { return open_publisher(settings, usual_folders()); }
+std::unique_ptr<stream::Publisher> open_publisher(const Settings& settings) { return open_publisher(settings, usual_folders()); }
 
-std::unique_ptr<Publisher> open_publisher(const Settings& settings, const std::vector<fs::path>& folders) {
+std::unique_ptr<stream::Publisher> open_publisher(const Settings& settings, const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     const fs::path file = (folder / library_file).lexically_normal();
     std::error_code failed;
     if (!fs::exists(file, failed)) continue;
-    const auto open = function_in<Publisher*(const Settings&)>(load_library(file), open_function);
+    const auto open = function_in<stream::Publisher*(const Settings&)>(load_library(file), open_function);
     try {
-      return std::unique_ptr<Publisher>(open(settings));
+      return std::unique_ptr<stream::Publisher>(open(settings));
     } catch (const std::runtime_error& error) {
       throw Error(ErrorKind::device, error.what());
     }

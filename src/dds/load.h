@@ -11,8 +11,8 @@ namespace tofray::dds {
 
 /// Loads libtofray_dds.so, which stays loaded, and joins a domain.
 /// @throws Error (device) where the library is not there, is of another version, or DDS cannot start; the text says what to do
-std::unique_ptr<Publisher> open_publisher(const Settings& settings);
+std::unique_ptr<stream::Publisher> open_publisher(const Settings& settings);
 /// A publisher out of the first of these folders that holds the library.
-std::unique_ptr<Publisher> open_publisher(const Settings& settings, const std::vector<std::filesystem::path>& folders);
+std::unique_ptr<stream::Publisher> open_publisher(const Settings& settings, const std::vector<std::filesystem::path>& folders);
 
 }  // namespace tofray::dds

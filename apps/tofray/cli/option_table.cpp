@@ -249,7 +249,7 @@ std::vector<OptionSpec> view_specs() {
        }},
       {"--host", 0, "ADDRESS", "listen there in place of this machine's own 127.0.0.1 and ::1: other machines may reach it then",
        [](Options& o, const std::string& v) { o.view.host = v; }},
-      {"--allow-host", 0, "NAME", "a further name by which browsers reach the viewer; as often as you like", take_allowed_host},
+      {"--allow-host", 0, "NAME", "a further name by which it is reached; as often as you like", take_allowed_host},
       {"--open", 0, nullptr, "open it in the browser", [](Options& o, const std::string&) { o.view.open = true; }},
       {"--embed", 0, nullptr, "pages of this machine may hold the viewer in a frame",
        [](Options& o, const std::string&) { o.view.embed = true; }},
@@ -435,7 +435,8 @@ const std::vector<Group>& groups() {
       {"Messages of ROS 2 (render: with --emit mcap)",
        {"--driver", "--topics", "--camera-name", "--stamp", "--epoch", "--depth-encoding", "--amplitude-step", "--unorganized",
         "--mcap-compression"}},
-      {"Viewer", {"--port", "--host", "--allow-host", "--open", "--beside", "--embed", "--end-with-input", "--rate", "--test-hooks"}},
+      {"Server", {"--port", "--host", "--allow-host", "--allow-origin"}},
+      {"Viewer", {"--open", "--beside", "--embed", "--end-with-input", "--rate", "--test-hooks"}},
       {"Machine", {"--threads", "--backend", "--device"}}};
   return all;
 }

@@ -70,6 +70,8 @@ struct Options {
     bool open = false, embed = false, end_with_input = false, test_hooks = false;
   } view;  ///< of `tofray view`
   struct Stream {
+    enum class To { dds, foxglove } to = To::dds;
+    std::vector<std::string> allowed_origins;
     std::optional<int> domain;
     std::string interface;  ///< empty: loopback
     bool sensor_qos = false;

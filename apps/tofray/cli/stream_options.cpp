@@ -26,6 +26,16 @@ void take_interface(Options& o, const std::string& value) {
   o.stream.interface = value;
 }
 
+/// "https://app.example.org": a scheme, a host, a port where it is not the usual one.
+void take_origin(Options& o, const std::string& value) {
+  const std::size_t scheme = value.find("://");
+  const bool good = scheme != std::string::npos && scheme > 0 && value.find_first_of(" \t,\"'<>") == std::string::npos &&
+                    value.find('/', scheme + 3) == std::string::npos && value.size() <= 256;
+  if (!good && value != "null")
+    app::refuse("--allow-origin", value, "a page's origin, without a path, as in --allow-origin https://app.example.org");
+  o.stream.allowed_origins.push_back(value);
+}
+
 void take_epoch(Options& o, const std::string& value) {
   o.stream.epoch_now = value == "now";
   o.messages.epoch_s = o.stream.epoch_now ? 0 : number_of("--epoch", value, 0, 2e9, "now, or seconds, 0 to 2e9, as in --epoch 1.7e9");
@@ -46,14 +56,24 @@ void take_camera(Options& o, const std::string& value) {
 
 std::vector<OptionSpec> stream_specs() {
   return {
-      {"--to", 0, "WHERE", "dds: ROS 2 and whoever speaks DDS (dds)",
-       [](Options&, const std::string& v) { (void)word_of("--to", v, {"dds"}); }, "dds"},
+      {"--to", 0, "WHERE", "dds: ROS 2 and whoever speaks DDS; foxglove: Foxglove, Lichtblick and whoever speaks their WebSocket (dds)",
+       [](Options& o, const std::string& v) {
+         o.stream.to = static_cast<Options::Stream::To>(word_of("--to", v, {"dds", "foxglove"}));
+       },
+       "dds foxglove"},
       {"--domain", 0, "N", "DDS domain (ROS_DOMAIN_ID, or 0)",
        [](Options& o, const std::string& v) {
          o.stream.domain = static_cast<int>(whole("--domain", v, 0, 232, "a whole number of 0 to 232"));
        }},
       {"--interface", 0, "NAME", "network interface, by name or address, or auto: other machines see it then (lo: this machine alone)",
        take_interface, "lo auto"},
+      {"--port", 0, "N", "of --to foxglove: port to listen on; 0: any that is free (8765, or one of the next 20)",
+       [](Options& o, const std::string& v) {
+         o.view.port = static_cast<int>(whole("--port", v, 0, 65535, "a whole number of 0 to 65535"));
+       },
+       "", false, "stream"},
+      {"--allow-origin", 0, "ORIGIN", "of --to foxglove: pages of that origin may read, beside those of this machine; as often as you like",
+       take_origin},
       {"--qos", 0, "NAME", "compatible: reliable, transient local; sensor: best effort, volatile for images and clouds (compatible)",
        [](Options& o, const std::string& v) {
          o.stream.sensor_qos = word_of("--qos", v, {"compatible", "sensor"}) == 1;

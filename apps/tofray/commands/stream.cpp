@@ -4,21 +4,18 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <thread>
 
-#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/remarks.h"
 #include "cli/requests.h"
 #include "commands/results.h"
 #include "commands/stream_camera.h"
-#include "dds/load.h"
+#include "commands/stream_carrier.h"
 #include "messages/topics.h"
 #include "run/input_kind.h"
 #include "tofray/error.h"
@@ -47,42 +44,6 @@ double processor_time_s() {
   ::getrusage(RUSAGE_SELF, &used);
   const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
   return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
-
-int domain_of(const Options& options) {
-  const std::string asked = environment("ROS_DOMAIN_ID");
-  if (options.stream.domain || asked.empty()) return options.stream.domain.value_or(0);
-  int domain = -1;
-  const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), domain);
-  if (read.ec != std::errc() || read.ptr != asked.data() + asked.size() || domain < 0 || domain > 232)
-    throw Error(ErrorKind::bad_input,
-                fmt::format("error: ROS_DOMAIN_ID is {}\n  expected a whole number of 0 to 232, or --domain N", base::in_quotes(asked)));
-  return domain;
-}
-
-dds::Settings settings_of(const Options& options) {
-  constexpr int usual = 5, usual_of_sensors = 2;  // for who is late
-  dds::Settings out;
-  out.domain = domain_of(options);
-  if (!options.stream.interface.empty())
-    out.interface = options.stream.interface;
-  else
-    out.config = environment("CYCLONEDDS_URI");
-  const auto cameras = static_cast<int>(options.stream.cameras.size());
-  out.history = std::max(options.stream.history.value_or(options.stream.sensor_qos ? usual_of_sensors : usual), cameras);  // of /tf_static
-  return out;
-}
-
-std::string network_text(const dds::Settings& settings) {
-  const std::string where = !settings.config.empty()     ? "on the network of CYCLONEDDS_URI"
-                            : settings.interface == "lo" ? "on this machine alone"
-                                                         : "on " + settings.interface + ", where other machines see it";
-  return fmt::format("DDS domain {}, {}", settings.domain, where);
 }
 
 /// Topics unless asked: what drivers send, and the time.
@@ -142,14 +103,14 @@ struct Course {
 };
 
 /// @return whether they came
-bool wait_for_readers(dds::Publisher& publisher, int readers, const std::atomic<bool>& stop) {
+bool wait_for_readers(stream::Publisher& publisher, int readers, const std::atomic<bool>& stop) {
   while (!stop && publisher.readers() < readers) std::this_thread::sleep_for(moment);
   return !stop;
 }
 
 double host_time_s() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
-Course stream_all(const Cameras& cameras, dds::Publisher& publisher, const Options& options, const std::atomic<bool>& stop) {
+Course stream_all(const Cameras& cameras, stream::Publisher& publisher, const Options& options, const std::atomic<bool>& stop) {
   Course out;
   std::vector<stream::Eye*> eyes;
   for (const auto& camera : cameras) camera->prepare(), eyes.push_back(camera.get());
@@ -183,14 +144,14 @@ files::Json camera_json(const StreamedCamera& camera, const stream::Account& acc
       .set("late_max_ms", in_ms(account.lateness.largest_s()));
 }
 
-files::Json course_json(const Course& course, const Cameras& cameras, const Outlets& outlets, const dds::Settings& settings) {
+files::Json course_json(const Course& course, const Cameras& cameras, const Outlets& outlets, const Carrier& carrier) {
   files::Json all = files::Json::array(), topics = files::Json::object();
   for (std::size_t i = 0; i < cameras.size(); ++i) all.push(camera_json(*cameras[i], course.accounts[i]));
   for (const auto& [name, type] : outlets.types()) topics.set(name, type);
-  return files::Json::object()
-      .set("scene", cameras.front()->inputs().scene.name)
-      .set("domain", settings.domain)
-      .set("interface", settings.config.empty() ? settings.interface : "CYCLONEDDS_URI")
+  files::Json out = files::Json::object();
+  for (const auto& [key, value] : carrier.place) out.set(key, value);
+  return out.set("scene", cameras.front()->inputs().scene.name)
+      .set("to", carrier.name)
       .set("cameras", std::move(all))
       .set("topics", std::move(topics))
       .set("messages", outlets.messages)
@@ -226,12 +187,12 @@ void tell_losses(const Course& course, const Outlets& outlets, Remarks& remarks)
                     "fewer --topics or fewer pixels (camera.readout.binning) help\n",
                     dropped, sent + dropped));
   if (outlets.refused > 0)
-    remarks.tell(fmt::format("warning: {} messages were not sent: readers had not taken 64 MB before them\n", outlets.refused));
+    remarks.tell(fmt::format("warning: {} messages were not sent to all readers: some were too far behind\n", outlets.refused));
   if (!course.delivered) remarks.tell("warning: not all readers had all of the last messages when the stream ended\n");
 }
 
-std::string beginning_text(const Outlets& outlets, const dds::Settings& settings, const Options& options) {
-  std::string out = fmt::format("{}; {} topics:", network_text(settings), outlets.types().size());
+std::string beginning_text(const Outlets& outlets, const Carrier& carrier, const Options& options) {
+  std::string out = fmt::format("{}; {} topics:", carrier.where, outlets.types().size());
   for (const auto& [name, type] : outlets.types()) out += " " + name;
   out += options.stream.readers > 0 ? fmt::format("\n  begins once there are {} subscriptions\n", options.stream.readers) : "\n";
   return out + (options.frames || options.stream.duration_s ? "" : "  Ctrl-C ends it\n");
@@ -241,24 +202,23 @@ std::string beginning_text(const Outlets& outlets, const dds::Settings& settings
 
 int run_stream(const Options& options) {
   Remarks remarks;
-  const dds::Settings settings = settings_of(options);
-  const std::unique_ptr<dds::Publisher> publisher = dds::open_publisher(settings);
+  const Carrier carrier = open_carrier(options);
   const NameChoice chosen = choose_scene(options.words[0]);
   remarks.tell(run::note_of(chosen));
   FrameProgress now;
   const Cameras cameras = load_cameras(chosen.name, options, now, remarks);
   say_fallback(options, cameras.front()->ran_on(), remarks);
   const bool bounded = frames_of(options, cameras) > 0;
-  Outlets outlets(*publisher, options.stream.sensor_qos);
+  Outlets outlets(*carrier.publisher, options.stream.sensor_qos);
   for (const auto& camera : cameras) camera->offer(outlets);
   const Talk talk(options.quiet);
-  talk(beginning_text(outlets, settings, options));
+  talk(beginning_text(outlets, carrier, options));
   const StopRequest stop(&now.stop);
-  const Course course = stream_all(cameras, *publisher, options, now.stop);
+  const Course course = stream_all(cameras, *carrier.publisher, options, now.stop);
   tell_losses(course, outlets, remarks);
   const bool interrupted = stop.signal() != 0 && bounded;
   if (options.json)
-    print(files::json_text(remarks.put(course_json(course, cameras, outlets, settings).set("interrupted", interrupted)), 2) + "\n");
+    print(files::json_text(remarks.put(course_json(course, cameras, outlets, carrier).set("interrupted", interrupted)), 2) + "\n");
   else
     talk(course_text(course, cameras, outlets));
   return interrupted ? 128 + stop.signal() : 0;

@@ -30,12 +30,12 @@ bool Outlets::offer(const Topic& topic) {
   return true;
 }
 
-void Outlets::send(const Topic& topic, const std::string& cdr) {
-  if (!publisher_.send(numbers_.at(topic.name), cdr)) {
+void Outlets::send(const Topic& topic, const Message& message) {
+  if (!publisher_.send(numbers_.at(topic.name), message.data, message.publish_ns)) {
     ++refused;
     return;
   }
-  ++messages, bytes += cdr.size();
+  ++messages, bytes += message.data.size();
 }
 
 StreamedCamera::StreamedCamera(run::Loaded in, const MessageOptions& messages, const SimulatorOptions& options, const Pacing& pacing)
@@ -85,10 +85,10 @@ void StreamedCamera::make(std::uint64_t frame) {
 void StreamedCamera::send() {
   const std::vector<Topic>& topics = messages_.topics();
   if (!said_static_)
-    for (const Message& one : messages_.before(frame_)) outlets_->send(topics[one.topic], one.data);
+    for (const Message& one : messages_.before(frame_)) outlets_->send(topics[one.topic], one);
   said_static_ = true;
   for (const Message& one : made_)
-    if (owns_clock_ || topics[one.topic].name != clock_topic) outlets_->send(topics[one.topic], one.data);
+    if (owns_clock_ || topics[one.topic].name != clock_topic) outlets_->send(topics[one.topic], one);
 }
 
 }  // namespace tofray::app

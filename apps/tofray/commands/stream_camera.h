@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cli/options.h"
-#include "dds/publisher.h"
 #include "run/inputs.h"
 #include "stream/pace.h"
+#include "stream/publisher.h"
 #include "tofray/messages.h"
 #include "tofray/simulator.h"
 
@@ -19,17 +19,17 @@ namespace tofray::app {
 /// Topics that are offered, by name: cameras of one scene share some of them.
 class Outlets {
  public:
-  Outlets(dds::Publisher& publisher, bool sensor_qos) : publisher_(publisher), sensor_qos_(sensor_qos) {}
+  Outlets(stream::Publisher& publisher, bool sensor_qos) : publisher_(publisher), sensor_qos_(sensor_qos) {}
   /// @return whether it was not there yet
   bool offer(const Topic& topic);
-  void send(const Topic& topic, const std::string& cdr);
+  void send(const Topic& topic, const Message& message);
   [[nodiscard]] const std::map<std::string, std::string>& types() const { return types_; }
 
   std::uint64_t messages = 0, bytes = 0;  ///< that were sent
   std::uint64_t refused = 0;              ///< that were not, because readers were behind
 
  private:
-  dds::Publisher& publisher_;
+  stream::Publisher& publisher_;
   bool sensor_qos_;
   std::map<std::string, int> numbers_;
   std::map<std::string, std::string> types_;

@@ -93,13 +93,29 @@ bool knows_token(const Request& request, const std::string& token) {
   return speaks && tokens == 1 && right == 1;
 }
 
-Verdict socket_verdict(const Request& request, const Admission& admission) {
-  if (!knows_token(request, admission.token)) return {401, "no token, or not this viewer's: open the address that tofray view printed"};
+Verdict handshake_verdict(const Request& request) {
   if (request.method != "GET") return {405, "a socket is opened by GET"};
   if (!has_word(request, "Upgrade", "websocket") || !has_word(request, "Connection", "upgrade")) return {426, "here is a WebSocket alone"};
   if (value(request, "Sec-WebSocket-Version") != "13") return {426, "the version of WebSocket is 13"};
   if (!is_key(value(request, "Sec-WebSocket-Key").value_or(""))) return {400, "no key of a WebSocket"};
   return {101, "", Route::socket};
+}
+
+Verdict socket_verdict(const Request& request, const Admission& admission) {
+  if (!knows_token(request, admission.token)) return {401, "no token, or not this viewer's: open the address that tofray view printed"};
+  return handshake_verdict(request);
+}
+
+/// Whether a page of this origin is one of this machine: of a server here, or a file.
+bool of_this_machine(std::string_view origin) {
+  if (origin == "file://") return true;
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!origin.starts_with(scheme)) continue;
+    const std::string_view host = origin.substr(scheme.size());
+    for (const std::string_view name : {"localhost", "127.0.0.1", "[::1]"})
+      if (host == name || (host.starts_with(name) && host[name.size()] == ':')) return true;
+  }
+  return false;
 }
 
 /// What is wrong with a request, whoever sends it.
@@ -146,6 +162,30 @@ Verdict judged(const Request& request, const Admission& admission, bool (*is_fil
   if (!is_file(request.target)) return {404, "there is no such file"};
   return {200, "", Route::file};
 }
+
+Verdict judged_reader(const Request& request, const ReaderAdmission& admission) {
+  if (const Verdict wrong = malformed(request); wrong.status != 200) return wrong;
+  const auto has = [](const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  };
+  if (!has(admission.hosts, lower(*value(request, "Host"))))
+    return {421, "this is not a name of the stream's; tofray stream --allow-host adds one"};
+  if (const auto origin = value(request, "Origin"); origin && !of_this_machine(lower(*origin)) && !has(admission.origins, lower(*origin)))
+    return {403, "a page of elsewhere may not; tofray stream --allow-origin lets one in"};
+  if (const Verdict wrong = handshake_verdict(request); wrong.status != 101) return wrong;
+  if (chosen_protocol(request, admission.speaks).empty())
+    return {400, "no subprotocol that is spoken here: foxglove.sdk.v1 or foxglove.websocket.v1"};
+  return {101, "", Route::socket};
+}
+
+std::string_view chosen_protocol(const Request& request, std::span<const std::string_view> speaks) {
+  const auto words = words_of(header_of(request, "Sec-WebSocket-Protocol"));
+  for (const std::string_view one : speaks)
+    if (std::find(words.begin(), words.end(), one) != words.end()) return one;
+  return {};
+}
+
+std::string_view header_of(const Request& request, std::string_view name) { return value(request, name).value_or(std::string_view()); }
 
 std::string content_policy(const std::vector<std::string>& hosts, bool embed) {
   std::string sockets;

@@ -16,14 +16,16 @@
 #include "view/assets.h"
 #include "view/beast.h"
 #include "view/client.h"
+#include "view/http_request.h"
 #include "view/hub.h"
+#include "view/listener.h"
 #include "view/secret.h"
 
 namespace tofray::view {
 
 namespace {
 
-constexpr int usual_port = 7170, ports_behind = 20;
+constexpr Ports usual_ports{7170, 20};
 constexpr std::uint32_t most_head = 16384;
 constexpr auto head_time = std::chrono::seconds(5), answer_time = std::chrono::seconds(30);
 
@@ -32,12 +34,6 @@ constexpr std::string_view no_page =
 
 /// The page for files has no frames yet.
 bool is_file(std::string_view target) { return target == "/" || (target != "/export.html" && find_asset(target) != nullptr); }
-
-Request request_of(const http::request<http::empty_body>& from, std::vector<Header>& headers) {
-  const auto view = [](beast::string_view text) { return std::string_view(text.data(), text.size()); };
-  for (const auto& one : from) headers.push_back({view(one.name_string()), view(one.value())});
-  return {view(from.method_string()), view(from.target()), static_cast<int>(from.version()), headers};
-}
 
 /// A connection that speaks HTTP: answers requests, one after the other, until one of them opens a WebSocket.
 class Connection : public std::enable_shared_from_this<Connection> {
@@ -123,103 +119,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::request_parser<http::empty_body>> parser_;
 };
 
-/// Takes connections at one address.
-class Listener : public std::enable_shared_from_this<Listener> {
- public:
-  Listener(net::io_context& io, std::shared_ptr<Hub> hub) : acceptor_(io), again_(io), hub_(std::move(hub)) {}
-
-  error_code open(const tcp::endpoint& at) {
-    error_code error;
-    acceptor_.open(at.protocol(), error);
-    if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
-    if (!error && at.address().is_v6()) acceptor_.set_option(net::ip::v6_only(true), error);
-    if (!error) acceptor_.bind(at, error);
-    if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
-    if (error) close();
-    return error;
-  }
-
-  void accept() {
-    acceptor_.async_accept([self = shared_from_this()](error_code error, tcp::socket socket) {
-      if (error == net::error::operation_aborted) return;
-      if (error) return self->wait();
-      error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      const bool full = self->hub_->connections >= Hub::most_connections;
-      const auto connection = std::make_shared<Connection>(std::move(socket), Counted(self->hub_));
-      if (full)
-        connection->refuse_for_want_of_room();
-      else
-        connection->read();
-      self->accept();
-    });
-  }
-
-  [[nodiscard]] int port() const { return acceptor_.local_endpoint().port(); }
-  void set_hub(std::shared_ptr<Hub> hub) { hub_ = std::move(hub); }
-  void close() {
-    error_code ignored;
-    acceptor_.close(ignored);
-    again_.cancel();
-  }
-
- private:
-  /// Where the process has no more files, a moment later it may.
-  void wait() {
-    again_.expires_after(std::chrono::milliseconds(100));
-    again_.async_wait([self = shared_from_this()](error_code error) {
-      if (!error) self->accept();
-    });
-  }
-
-  tcp::acceptor acceptor_;
-  net::steady_timer again_;
-  std::shared_ptr<Hub> hub_;
-};
-
-using Listeners = std::vector<std::shared_ptr<Listener>>;
-
-/// Listens at these addresses, on the same port. @return nothing where the first one cannot be had
-Listeners opened(net::io_context& io, const std::vector<net::ip::address>& addresses, int port, error_code& error) {
-  Listeners out;
-  for (const net::ip::address& address : addresses) {
-    auto one = std::make_shared<Listener>(io, nullptr);
-    const int at = out.empty() ? port : out.front()->port();
-    const error_code failed = one->open({address, static_cast<std::uint16_t>(at)});
-    if (failed && out.empty()) {
-      error = failed;
-      return {};
-    }
-    if (failed)
-      app::say(fmt::format("warning: the viewer is not reached at {}: {}\n", address.to_string(), failed.message()));
-    else
-      out.push_back(std::move(one));
-  }
-  return out;
-}
-
-Listeners listening(net::io_context& io, const ServerOptions& options) {
-  std::vector<net::ip::address> addresses = {net::ip::address_v4::loopback(), net::ip::address_v6::loopback()};
-  error_code error;
-  if (!options.host.empty()) {
-    const std::string host = options.host == "localhost" ? "127.0.0.1" : options.host;
-    addresses = {net::ip::make_address(host, error)};
-    if (error)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("error: --host {} is no address\n  expected one of this machine's, as in --host 0.0.0.0 or --host ::1",
-                              options.host));
-  }
-  const int first = options.port.value_or(usual_port), last = options.port ? first : usual_port + ports_behind;
-  for (int port = first; port <= last; ++port) {
-    Listeners out = opened(io, addresses, port, error);
-    if (!out.empty()) return out;
-  }
-  throw Error(
-      ErrorKind::io,
-      fmt::format("error: the viewer cannot listen on {} port {}: {}\n  expected a port that is free; without --port one is looked for",
-                  addresses.front().to_string(), first, error.message()));
-}
-
 /// Waits until nothing more can come from standard input: whoever started the program has ended then, or closed it.
 class EndOfInput {
  public:
@@ -248,6 +147,15 @@ void add_signal(net::signal_set& signals, int signal) {
   signals.add(signal);
 }
 
+void welcome(const std::shared_ptr<Hub>& hub, tcp::socket&& socket) {
+  const bool full = hub->connections >= Hub::most_connections;
+  const auto connection = std::make_shared<Connection>(std::move(socket), Counted(hub));
+  if (full)
+    connection->refuse_for_want_of_room();
+  else
+    connection->read();
+}
+
 /// Handlers may throw for a lack of memory: the connection that it happened to is gone then, and no other.
 void run(net::io_context& io) {
   for (;;) {
@@ -264,14 +172,14 @@ void run(net::io_context& io) {
 
 void serve(const ServerOptions& options, Session& session, const std::function<void(const Address&)>& told) {
   net::io_context io(1);
-  const Listeners listeners = listening(io, options);
+  const Listeners listeners = listening(io, {"the viewer", options.host, options.port, usual_ports});
   const int port = listeners.front()->port();
   Admission admission;
   std::vector<std::string> further = options.allowed_hosts;
   admission.hosts = hosts_of(port, further), admission.token = new_token(), admission.embed = options.embed;
   const std::string token = admission.token;
   const auto hub = std::make_shared<Hub>(io, session, options.rate, std::move(admission));
-  for (const auto& one : listeners) one->set_hub(hub), one->accept();
+  for (const auto& one : listeners) one->accept([&hub](tcp::socket&& socket) { welcome(hub, std::move(socket)); });
 
   net::steady_timer last_moment(io);
   net::signal_set signals(io);
@@ -291,9 +199,7 @@ void serve(const ServerOptions& options, Session& session, const std::function<v
   if (options.end_with_input) input.wait();
 
   session.start(*hub);
-  const bool local =
-      net::ip::address(net::ip::make_address(options.host.empty() || options.host == "localhost" ? "127.0.0.1" : options.host))
-          .is_loopback();
+  const bool local = is_loopback(options.host);
   const std::string name =
       options.allowed_hosts.empty() || local ? fmt::format("127.0.0.1:{}", port) : hosts_of(port, {options.allowed_hosts.front()}).back();
   told({fmt::format("http://{}/#t={}", name, token), port, !local});

@@ -86,7 +86,7 @@ std::string network_config(const Settings& settings) {
   return "<CycloneDDS><Domain>" + general + discovery + internal + "</Domain></CycloneDDS>";
 }
 
-class CyclonePublisher : public Publisher {
+class CyclonePublisher : public stream::Publisher {
  public:
   explicit CyclonePublisher(const Settings& settings) : settings_(settings) {
     domain_ = checked(dds_create_domain(static_cast<dds_domainid_t>(settings.domain), network_config(settings).c_str()), "start");
@@ -101,7 +101,7 @@ class CyclonePublisher : public Publisher {
   CyclonePublisher(const CyclonePublisher&) = delete;
   CyclonePublisher& operator=(const CyclonePublisher&) = delete;
 
-  int offer(const TopicForm& form) override {
+  int offer(const stream::TopicForm& form) override {
     const Qos qos;
     set_quality(qos.get, form.lasting, settings_.history);
     ddsi_sertype* type = make_raw_type(dds_type(form.type).c_str());
@@ -115,7 +115,7 @@ class CyclonePublisher : public Publisher {
     return static_cast<int>(writers_.size() - 1);
   }
 
-  bool send(int topic, std::string_view cdr) override {
+  bool send(int topic, std::string_view cdr, std::int64_t) override {
     const Writer& writer = writers_.at(static_cast<std::size_t>(topic));
     const dds_return_t sent = dds_writecdr(writer.entity, make_raw_data(writer.type, cdr));
     if (sent == DDS_RETCODE_TIMEOUT) return false;
@@ -164,7 +164,7 @@ class CyclonePublisher : public Publisher {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const char* tofray_dds_identity() { return TOFRAY_DDS_IDENTITY; }
-extern "C" __attribute__((visibility("default"))) Publisher* tofray_dds_open(const Settings& settings) {
+extern "C" __attribute__((visibility("default"))) stream::Publisher* tofray_dds_open(const Settings& settings) {
   return new CyclonePublisher(settings);
 }
 
