@@ -39,6 +39,10 @@ struct Fixed {
   std::uint64_t combinations = 1;
 };
 
+/// The keys of `scatter` in a set's list of objects, and of `look` in its camera's pose.
+const std::vector<std::string>& scatter_keys();
+const std::vector<std::string>& look_keys();
+
 /// Looks at all forms of a set. It points into the set, which has to stay. @throws Error with line and column: tables and files that cannot be read, a grid in a choice
 Fixed fixed_of(const SetFile& set);
 

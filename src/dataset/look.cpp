@@ -19,11 +19,16 @@ constexpr const char* look_example = "{look: {at: ball, radius: [0.8 m, 2 m], el
 
 }  // namespace
 
+const std::vector<std::string>& look_keys() {
+  static const std::vector<std::string> keys{"at", "radius", "elevation", "azimuth", "roll", "clear", "tries"};
+  return keys;
+}
+
 void Sample::see_look(const Node& pose) {
   const Node& look = *pose.find("look");
   if (pose.keys.size() != 1)
     base::fail(pose.place, "beside look stands another key of a pose", std::string("expected it alone, as in ") + look_example);
-  static const std::vector<std::string> known{"at", "radius", "elevation", "azimuth", "roll", "clear", "tries"};
+  const std::vector<std::string>& known = look_keys();
   if (look.kind != Node::Kind::map)
     base::fail(look.place, "look is not what belongs here", std::string("expected a map, as in ") + look_example);
   for (const Node::Key& key : look.keys)

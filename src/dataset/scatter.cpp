@@ -25,8 +25,7 @@ const Node& needed(const Node& map, const char* key) {
 }
 
 void refuse_unknown_keys(const Node& map) {
-  static const std::vector<std::string> known{"name",   "count", "of",  "surface", "box",     "view",
-                                              "within", "turn",  "gap", "tries",   "unplaced"};
+  const std::vector<std::string>& known = scatter_keys();
   if (map.kind != Node::Kind::map)
     base::fail(map.place, "scatter is not what belongs here", std::string("expected a map such as ") + scatter_example);
   for (const Node::Key& key : map.keys)
@@ -36,6 +35,11 @@ void refuse_unknown_keys(const Node& map) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& scatter_keys() {
+  static const std::vector<std::string> keys{"name", "count", "of", "surface", "box", "view", "within", "turn", "gap", "tries", "unplaced"};
+  return keys;
+}
 
 double Sample::quantity(const Node& node, const std::string& path, base::Dimension dimension, const char* expected) {
   Node value;

@@ -40,6 +40,19 @@ SplitShares split_shares(const yaml::Value& value, base::Faults& faults) {
   return out;
 }
 
+/// Whether a map below has `unplaced: again`.
+bool places_again(const yaml::Node& node) {
+  const yaml::Node* unplaced = node.kind == yaml::Node::Kind::map ? node.find("unplaced") : nullptr;
+  return (unplaced != nullptr && unplaced->text == "again") || std::any_of(node.items.begin(), node.items.end(), places_again);
+}
+
+void need_map(const yaml::Node& node, const char* key, base::Faults& faults) {
+  if (node.kind != yaml::Node::Kind::map && node.kind != yaml::Node::Kind::null)
+    faults.add(node.place, std::string(key) + " is not what belongs here", "got " + yaml::describe(node) + ", expected a map");
+}
+
+}  // namespace
+
 const model::FileForm& set_form() {
   using namespace model;
   static const FileForm form{
@@ -64,19 +77,6 @@ const model::FileForm& set_form() {
   };
   return form;
 }
-
-/// Whether a map below has `unplaced: again`.
-bool places_again(const yaml::Node& node) {
-  const yaml::Node* unplaced = node.kind == yaml::Node::Kind::map ? node.find("unplaced") : nullptr;
-  return (unplaced != nullptr && unplaced->text == "again") || std::any_of(node.items.begin(), node.items.end(), places_again);
-}
-
-void need_map(const yaml::Node& node, const char* key, base::Faults& faults) {
-  if (node.kind != yaml::Node::Kind::map && node.kind != yaml::Node::Kind::null)
-    faults.add(node.place, std::string(key) + " is not what belongs here", "got " + yaml::describe(node) + ", expected a map");
-}
-
-}  // namespace
 
 SetFile parse_set(std::string_view text, const std::string& source) {
   const yaml::Node root = yaml::parse_tree(text, source);

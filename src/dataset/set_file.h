@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/form.h"
 #include "yaml/tree.h"
 
 /// A set's file as it is written: how many samples of which scene.
@@ -45,6 +46,9 @@ struct SetFile {
   /// Whether a sample may take several attempts.
   [[nodiscard]] bool tries() const { return again || !accept.empty(); }
 };
+
+/// The keys of a set's file, from which it is read.
+const model::FileForm& set_form();
 
 /// @throws Error with every fault of these keys; what stands in let, scene and set is looked at when it is drawn
 SetFile parse_set(std::string_view text, const std::string& source);

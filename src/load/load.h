@@ -12,6 +12,10 @@
 #include "tofray/load.h"
 
 /// Scenes and camera profiles from files, from texts, and with keys changed from the command line.
+namespace tofray::model {
+struct FileForm;
+}
+
 namespace tofray::load {
 
 /// Dotted key and value as written in the file, e.g. {"ambient.level", "5 %"} or {"objects.1.sphere.radius", "20 cm"}.
@@ -37,5 +41,7 @@ Camera camera_from_text(const std::string& text, const std::string& source, cons
 std::string schema_json(const std::string& kind);
 /// The kinds that schema_json() knows.
 std::vector<std::string> schema_kinds();
+/// JSON Schema of files of another kind, from the table that reading goes by.
+std::string schema_of(const model::FileForm& file);
 
 }  // namespace tofray::load

@@ -207,11 +207,14 @@ std::string schema_json(const std::string& kind) {
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
     base::fail(base::whole("schema"), "no schema of that kind: " + base::in_quotes(kind) + base::did_you_mean(kind, kinds),
                "expected one of " + base::listed(kinds));
-  const model::FileForm& file = kind == "scene" ? model::scene_form() : model::camera_form();
+  return kind == "scene" ? schema_of(model::scene_form()) : schema_of(model::camera_form());
+}
+
+std::string schema_of(const model::FileForm& file) {
   Json definitions = Json::object();
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", file.title}};
   schema.update(Writer(file.provenance, definitions).schema(file.root));
-  if (kind == "scene") schema["properties"]["camera"]["allOf"][0]["properties"].update(overrides(definitions));
+  if (&file == &model::scene_form()) schema["properties"]["camera"]["allOf"][0]["properties"].update(overrides(definitions));
   schema["$defs"] = std::move(definitions);
   return schema.dump(1) + "\n";
 }
