@@ -25,6 +25,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         {std::string_view(lines[i]).substr(0, colon), std::string_view(lines[i]).substr(std::min(colon + 1, lines[i].size()))});
   }
   const std::string target = lines.size() > 1 ? lines[1] : "";
+  static constexpr std::string_view speaks[] = {"foxglove.sdk.v1", "foxglove.websocket.v1"};
+  const auto of_reader = tofray::view::judged_reader({lines[0], target, 11, headers}, {admission.hosts, {}, speaks});
+  if (of_reader.status == 101 && (text.find(":7170") == std::string::npos || text.find("foxglove.") == std::string::npos)) std::abort();
   const auto verdict = tofray::view::judged({lines[0], target, 11, headers}, admission, [](std::string_view one) { return one == "/"; });
   if (verdict.status != 101 && verdict.status != 200) return 0;
   bool named = false;

@@ -37,7 +37,7 @@ std::string name_of(const Subscription& one) { return fmt::format("subscription 
 }  // namespace
 
 Reader::Reader(view::tcp::socket&& socket, std::shared_ptr<Reception> reception)
-    : socket_(std::move(socket)), reception_(std::move(reception)), board_(reception_->board) {
+    : socket_(view::beast::tcp_stream(std::move(socket))), reception_(std::move(reception)), board_(reception_->board) {
   ++reception_->connections;
 }
 
@@ -49,7 +49,7 @@ void Reader::greet() {
   parser_->header_limit(most_head);
   parser_->body_limit(0);
   beast::get_lowest_layer(socket_).expires_after(head_time);
-  http::async_read_header(socket_.next_layer(), buffer_, *parser_,
+  http::async_read_header(beast::get_lowest_layer(socket_), buffer_, *parser_,
                           [self = shared_from_this()](error_code error, std::size_t) { self->judge(error); });
 }
 
@@ -77,7 +77,7 @@ void Reader::refuse(const view::Verdict& verdict) {
   answer->keep_alive(false);
   answer->prepare_payload();
   beast::get_lowest_layer(socket_).expires_after(head_time);
-  http::async_write(socket_.next_layer(), *answer, [self = shared_from_this(), answer](error_code, std::size_t) {
+  http::async_write(beast::get_lowest_layer(socket_), *answer, [self = shared_from_this(), answer](error_code, std::size_t) {
     error_code ignored;
     beast::get_lowest_layer(self->socket_).socket().shutdown(view::tcp::socket::shutdown_send, ignored);
   });

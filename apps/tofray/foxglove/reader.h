@@ -13,6 +13,7 @@
 
 #include "foxglove/board.h"
 #include "view/beast.h"
+#include "view/metered_stream.h"
 #include "view/request.h"
 
 namespace tofray::foxglove {
@@ -66,7 +67,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   bool put(Item item);
   void pump();
 
-  view::websocket::stream<view::beast::tcp_stream> socket_;
+  view::websocket::stream<view::MeteredStream> socket_;
   std::shared_ptr<Reception> reception_;
   Board& board_;
   view::beast::flat_buffer buffer_{65536};
