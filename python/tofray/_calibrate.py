@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ._model import Camera
 
 LIGHT_SPEED = 299792458.0
+_HIGHEST = 32
 _BLURRED = 0.05  # rad: what is known worse than this is not known
 
 
@@ -147,17 +148,29 @@ def wrapped(phase: Any) -> Any:
 
 
 def _orders(phases: int, orders: Sequence[int] | None) -> list[int]:
-    """Those that reference phases let through: multiples of their number, of an odd one of twice as much; 1 and 2 are the taps'."""
+    """Those that reference phases let through: multiples of their number, of an odd one of twice as much."""
     base = phases if phases % 2 == 0 else 2 * phases
-    return sorted({1, 2, base, 2 * base, 3 * base} if orders is None else set(orders))
+    wanted = sorted({base, 2 * base, 3 * base} if orders is None else set(orders))
+    if any(not 1 <= one <= _HIGHEST for one in wanted):
+        raise BadInput(f"error: got orders of {wanted}\n  expected whole numbers of 1 to {_HIGHEST}: so many times the measured phase")
+    return wanted
 
 
 def _fit(frequency: float, data: WallPhases, walls: Sequence[int], orders: list[int]) -> FrequencyResult:
-    """Offset, wiggling and pixels' phases together, by least squares over all pixels of these walls."""
+    """Offset, wiggling and pixels' phases together. Noise of a phase that is corrected has the correction's slope (theory, equation 4.9)."""
+    measured = data.measured[list(walls)]
+    first = _least_squares(frequency, data, walls, orders, 1.0)
+    slope = 1.0
+    for order, cosine, sine in zip(orders, first.cos_rad, first.sin_rad):
+        slope = slope + order * (cosine * _sin(order * measured) - sine * _cos(order * measured))
+    return _least_squares(frequency, data, walls, orders, slope)
+
+
+def _least_squares(frequency: float, data: WallPhases, walls: Sequence[int], orders: list[int], slope: Any) -> FrequencyResult:
     import numpy as np
 
     measured, off = data.measured[list(walls)], data.off[list(walls)]
-    weight = np.where(np.isfinite(off), 1 / data.variance[list(walls)], 0.0)
+    weight = np.where(np.isfinite(off), 1 / (data.variance[list(walls)] * slope**2), 0.0)
     height, width = measured.shape[1:]
     off = np.where(weight > 0, off, 0.0)
     basis = np.stack([part(order * measured) for order in orders for part in (np.cos, np.sin)])
@@ -204,7 +217,7 @@ def _inverse_of(normal: Any, orders: list[int], frequency: float) -> Any:
         known, worst = False, 0
     if not known:
         raise BadInput(f"error: the walls do not say what the wiggling is at {1e-6 * frequency:g} MHz\n  its part of order {orders[worst // 2]} is not known to "
-                       f"{_BLURRED:g} rad; expected distances all over half a wave, {0.5e3 * LIGHT_SPEED / frequency:.0f} mm, at uneven steps, or fewer orders")
+                       f"{_BLURRED:g} rad; expected more distances, at uneven steps over {0.5e3 * LIGHT_SPEED / frequency / min(orders):.0f} mm or more, or fewer orders")
     return covariance
 
 
@@ -230,7 +243,8 @@ def calibrate_phase(camera: Camera, walls: Iterable[tuple[float, Iterable[Frame 
     walls : sequence of (distance, frames)
         z in metres of a matt wall that faces the camera, and two or more of its frames with raw data: frames, files or a folder of them.
     orders : sequence of int, optional
-        Of the wiggling; left out: 1 and 2, and the first three that the number of reference phases lets through.
+        Of the wiggling; left out: the first three that the number of reference phases lets through. 1 and 2, which taps that differ
+        make, need distances over half a wave.
     held_out : sequence of int, optional
         Numbers of walls at which errors are taken of a calibration that has not seen them; left out: every fourth, of 8 or more.
 

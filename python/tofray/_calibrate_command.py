@@ -22,7 +22,8 @@ _HELP = """examples:
   tofray process out/frame.npz --set camera.decoding.calibration=specimen.yaml
 
 walls: a matt one that faces the camera and fills its image; of each a folder of two or more npz files with raw frames
-(tofray render --arrays +raw). Distances are z, where the optical axis meets the wall, evenly over half a wave at uneven steps.
+(tofray render --arrays +raw). Distances are z, where the optical axis meets the wall, at uneven steps over c/2Nf or more
+(N reference phases; of an odd N half as much).
 The file goes into decoding.calibration; `tofray calibration` is another command: it makes a profile's lens of an OpenCV or ROS file.
 exit codes: 0, calibrated; 2, bad input; 3, a file or a package is missing."""
 
@@ -57,6 +58,8 @@ def parser() -> argparse.ArgumentParser:
     add("--mode", default="", metavar="NAME", help="the camera's mode (the profile's first)")
     add("--held-out", default=None, metavar="NUMBERS",
         help="walls, counted from 0, at which errors are taken of a calibration that has not seen them, with commas between (every fourth of 8 or more)")
+    add("--orders", default=None, metavar="NUMBERS",
+        help="phase: of the wiggling, so many times the measured phase (the first three that the reference phases let through: 4,8,12 of four)")
     add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; as often as you like")
     add("--json", action="store_true", help="one JSON object on stdout")
     return out
@@ -81,13 +84,13 @@ def json_of(found: SpecimenCalibration) -> dict[str, Any]:
     }
 
 
-def _numbers(text: str | None) -> list[int] | None:
+def _numbers(text: str | None, option: str) -> list[int] | None:
     if text is None:
         return None
     try:
         return [int(one) for one in text.split(",") if one.strip()]
     except ValueError:
-        raise BadInput(f"--held-out: error: got {text!r:.60}\n  expected numbers of walls, such as 2,6") from None
+        raise BadInput(f"{option}: error: got {text!r:.60}\n  expected whole numbers with commas between, such as 2,6") from None
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -97,7 +100,8 @@ def _run(options: argparse.Namespace) -> None:
 
     camera = load_camera(options.profile, options.mode, set=dict(options.set))
     if options.what == "phase":
-        found = calibrate_phase(camera, options.walls, held_out=_numbers(options.held_out))
+        found = calibrate_phase(camera, options.walls, orders=_numbers(options.orders, "--orders"),
+                                held_out=_numbers(options.held_out, "--held-out"))
     else:
         if not options.specimen:
             raise BadInput("error: calibrate temperature lacks --specimen FILE\n  expected what `calibrate phase` wrote: the drift is added to it")

@@ -89,8 +89,8 @@ def walls_of(walls: Iterable[Any], camera: Camera, what: str) -> list[Wall]:
 
 def _check(frame: Frame, place: str, shape: tuple[int, ...]) -> None:
     raw = frame.raw
-    taps = raw.raw if raw.raw is not None else raw.tap_a if raw.tap_b is not None else None
-    needed = (taps, raw.modulation_frequency_hz, raw.reference_phase_rad, raw.lit)
+    taps = raw.get("raw") if raw.get("raw") is not None else raw.get("tap_a") if raw.get("tap_b") is not None else None
+    needed = (taps, *(raw.get(name) for name in ("modulation_frequency_hz", "reference_phase_rad", "lit")))
     if any(one is None for one in needed):
         raise BadInput(f"{place}: error: there are no raw frames in it\n  expected raw, or tap_a and tap_b, as `tofray render --arrays +raw` keeps them, "
                        "with modulation_frequency_hz, reference_phase_rad and lit")
@@ -103,7 +103,7 @@ def _differences(frame: Frame, camera: Camera) -> tuple[Any, Any]:
     import numpy as np
 
     raw = frame.raw
-    if raw.raw is None:
+    if raw.get("raw") is None:
         difference = np.asarray(raw.tap_a, float) - np.asarray(raw.tap_b, float)
         return difference, ~np.isfinite(difference).all(axis=0)
     codes = np.asarray(raw.raw, float)

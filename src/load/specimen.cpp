@@ -30,7 +30,9 @@ std::string text_of(const Node& name, const NamedBy& by, std::string& path) {
     path = name.text;
     return by.anywhere ? files::read_text(name.text) : files::read_reference(name.text, by.folder, by.root, name.place, path);
   } catch (const Error& fault) {
-    base::fail(name.place, what, wanted + "\n" + fault.what(), fault.kind());
+    const std::string text = fault.what(), mark = "error: ";
+    const std::size_t at = text.find(mark);
+    base::fail(name.place, what, wanted + "\n" + (at == std::string::npos ? text : text.substr(at + mark.size())), fault.kind());
   }
 }
 

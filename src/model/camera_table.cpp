@@ -281,7 +281,7 @@ const Table& table_of<DecoderCalibration>() {
       table<DecoderCalibration>(kind<kind_of>("kind", {"exact", "none", "specimen"}),
                                 number<&DecoderCalibration::reference_celsius>("reference", degrees, "temperature at which it was measured")
                                     .when<kind_of>(Kind::specimen),
-                                records<&DecoderCalibration::frequencies>("frequencies", 1, raw_frames, "one for each of the mode")
+                                records<&DecoderCalibration::frequencies>("frequencies", 0, raw_frames, "one for each of the mode")
                                     .when<kind_of>(Kind::specimen)
                                     .required())
           .kind_may_be_missing()

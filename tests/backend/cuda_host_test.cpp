@@ -61,7 +61,8 @@ TEST(cuda_host, decodes_by_what_is_known_of_a_specimen) {
       if (!frame.lit || (!known.frequencies.empty() && known.frequencies.back().modulation_frequency_hz == frame.modulation_frequency_hz))
         continue;
       FrequencyCalibration one{frame.modulation_frequency_hz, 0.1, 1e-4, {0, 0.01}, {0.01, 0}, "phases.npy", {}};
-      for (int i = 0; i < 21 * 15; ++i) one.pixel_phase_rad.push_back(1e-3 * (i % 17) + 0.01 * static_cast<double>(known.frequencies.size()));
+      for (int i = 0; i < 21 * 15; ++i)
+        one.pixel_phase_rad.push_back(1e-3 * (i % 17) + 0.01 * static_cast<double>(known.frequencies.size()));
       known.frequencies.push_back(one);
     }
     ASSERT_EQ(known.frequencies.size(), 2U);

@@ -99,7 +99,7 @@ TEST_F(SpecimenFile, that_is_wrong_is_refused_by_file_and_place) {
   write("typo.yaml", "frequencies:\n  - modulation_frequency: 80.32 MHz\n    phase_ofset: 1 rad\n  - modulation_frequency: 60.24 MHz\n");
   EXPECT_TRUE(says(refusal_of("typo.yaml"), "typo.yaml:3:5: error: unknown key \"phase_ofset\"")) << refusal_of("typo.yaml");
   write("one.yaml", "frequencies:\n  - modulation_frequency: 80.32 MHz\n");
-  EXPECT_TRUE(says(refusal_of("one.yaml"), "one.yaml:1:1: error: the calibration has no 60.24 MHz")) << refusal_of("one.yaml");
+  EXPECT_TRUE(says(refusal_of("one.yaml"), "one.yaml:2:3: error: the calibration has no 60.24 MHz")) << refusal_of("one.yaml");
   write("steep.yaml", "frequencies:\n  - modulation_frequency: 80.32 MHz\n    wiggling: {cos: [1 rad, 1 rad], sin: [0 rad, 0 rad]}\n");
   EXPECT_TRUE(says(refusal_of("steep.yaml"), "steep.yaml:3:")) << refusal_of("steep.yaml");
   write("far.yaml", "frequencies:\n  - modulation_frequency: 80.32 MHz\n    pixel_phase: ../eighty.npy\n");
@@ -109,7 +109,8 @@ TEST_F(SpecimenFile, that_is_wrong_is_refused_by_file_and_place) {
   EXPECT_TRUE(says(refusal_of("shape.yaml"), "shape.yaml:3:18: error: these are no phases of pixels\n  got float32 of shape (4,)"))
       << refusal_of("shape.yaml");
   write("small.npy", files::npy_header({'f', 4}, {2, 2}) + std::string(16, '\0'));
-  write("size.yaml", "frequencies:\n  - modulation_frequency: 80.32 MHz\n    pixel_phase: small.npy\n  - modulation_frequency: 60.24 MHz\n");
+  write("size.yaml",
+        "frequencies:\n  - modulation_frequency: 80.32 MHz\n    pixel_phase: small.npy\n  - modulation_frequency: 60.24 MHz\n");
   EXPECT_TRUE(says(refusal_of("size.yaml"), "size.yaml:3:18: error: the pixels' phases at 80.32 MHz are of another image\n  got 4 of them"))
       << refusal_of("size.yaml");
 }

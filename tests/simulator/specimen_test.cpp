@@ -107,7 +107,7 @@ TEST(specimen, by_whom_a_frame_was_made_is_found_in_simulated_frames_alone_by_ex
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(exact.depth.z_m[i], 1.5, 1e-4);
     EXPECT_GT(std::abs(none.depth.z_m[i] - 1.5F), 1e-3F);
-    EXPECT_EQ(process(exact.raw, camera, silent).z_m[i], none.depth.z_m[i]);
+    EXPECT_NEAR(process(exact.raw, camera, silent).z_m[i], none.depth.z_m[i], 5e-4);  // of codes, half a step of which is as much
   }
 }
 
@@ -120,17 +120,16 @@ TEST(specimen, that_does_not_fit_is_refused_by_its_member) {
   };
   EXPECT_EQ(with([](auto& known) { known.frequencies[0].pixel_phase_file = "", known.frequencies[0].pixel_phase_rad = {}; }), "");
   EXPECT_EQ(with([](auto& known) { known.frequencies.pop_back(); }),
-            "camera.decoding.calibration.frequencies: error: the calibration has no 80 MHz\n  got 60 MHz; the mode \"bench\" needs it");
-  EXPECT_TRUE(with([](auto& known) {
-                known.frequencies[1].modulation_frequency_hz = 60e6;
-              }).find("the calibration has 60 MHz twice") != std::string::npos);
-  EXPECT_TRUE(with([](auto& known) {
-                known.frequencies[0].pixel_phase_rad.pop_back();
-              }).find("the pixels' phases at 60 MHz are of another image\n  got 1 of them, the image that is read out has 2 x 1 = 2 pixels") !=
+            "error: decoding.calibration.frequencies: the calibration has no 80 MHz\n  got 60 MHz; the mode \"bench\" needs it");
+  EXPECT_TRUE(with([](auto& known) { known.frequencies[1].modulation_frequency_hz = 60e6; }).find("the calibration has 60 MHz twice") !=
               std::string::npos);
-  EXPECT_TRUE(with([](auto& known) {
-                known.frequencies[0].pixel_phase_rad[1] = std::nan("");
-              }).find("a pixel's phase at 60 MHz is none") != std::string::npos);
+  EXPECT_TRUE(
+      with([](auto& known) {
+        known.frequencies[0].pixel_phase_rad.pop_back();
+      }).find("the pixels' phases at 60 MHz are of another image\n  got 1 of them, the image that is read out has 2 x 1 = 2 pixels") !=
+      std::string::npos);
+  EXPECT_TRUE(with([](auto& known) { known.frequencies[0].pixel_phase_rad[1] = std::nan(""); }).find("a pixel's phase at 60 MHz is none") !=
+              std::string::npos);
   EXPECT_TRUE(with([](auto& known) { known.frequencies[0].pixel_phase_rad = {}; }).find("the pixels' phases at 60 MHz are not here") !=
               std::string::npos);
   EXPECT_TRUE(with([](auto& known) { known.frequencies[0].pixel_phase_file = ""; }).find("has no name") != std::string::npos);
@@ -144,5 +143,7 @@ TEST(specimen, that_does_not_fit_is_refused_by_its_member) {
 TEST(specimen, has_a_budget) {
   Camera camera = two_pixels();
   camera.decoding.calibration = known_of_two_pixels();
-  EXPECT_GT(budget(camera, {.distances_m = {1}}).at(0).sigma_m, 0);
+  BudgetRequest request;
+  request.distances_m = {1};
+  EXPECT_GT(budget(camera, request).at(0).sigma_m, 0);
 }
