@@ -93,7 +93,7 @@ class SpecimenCalibration:
     Attributes
     ----------
     frequencies : list of FrequencyResult
-    reference_celsius : float
+    reference_celsius : float, °C
         Temperature at which phases were measured.
     held_out : list of HeldOut
         Walls that the calibration had not seen when their errors were taken: afterwards it is made of all.
@@ -173,7 +173,7 @@ def _least_squares(frequency: float, data: WallPhases, walls: Sequence[int], ord
     weight = np.where(np.isfinite(off), 1 / (data.variance[list(walls)] * slope**2), 0.0)
     height, width = measured.shape[1:]
     off = np.where(weight > 0, off, 0.0)
-    basis = np.stack([part(order * measured) for order in orders for part in (np.cos, np.sin)])
+    basis = np.stack([part for order in orders for part in (np.cos(order * measured), np.sin(order * measured))])
     basis = np.where(weight > 0, basis, 0.0)
     total = weight.sum(axis=0)
     seen = (weight > 0).sum(axis=0) >= 2

@@ -50,6 +50,10 @@ def write_specimen(found: SpecimenCalibration, file: str) -> None:
         raise IoError(f"{fault.filename or file}: error: it cannot be written\n  {fault.strerror}") from None
 
 
+def _millimetres(value: float) -> str:
+    return "" if math.isnan(value) else f" {1e3 * value:6.2f}"
+
+
 def report(found: SpecimenCalibration) -> str:
     import numpy as np
 
@@ -70,9 +74,8 @@ def report(found: SpecimenCalibration) -> str:
     for row in found.held_out:
         celsius = getattr(row, "celsius", None)
         where = f"{row.distance_m:.3f} m" if celsius is None else f"{celsius:.1f} degC"
-        spread = (lambda value: "" if math.isnan(value) else f" {1e3 * value:6.2f}")
-        lines.append(f"{where:>10} {1e-6 * row.modulation_frequency_hz:7.2f} MHz {1e3 * row.before_m:8.2f}{spread(row.spread_before_m)} mm "
-                     f"{1e3 * row.after_m:8.2f}{spread(row.spread_after_m)} mm")
+        lines.append(f"{where:>10} {1e-6 * row.modulation_frequency_hz:7.2f} MHz {1e3 * row.before_m:8.2f}{_millimetres(row.spread_before_m)} mm "
+                     f"{1e3 * row.after_m:8.2f}{_millimetres(row.spread_after_m)} mm")
     lines += found.notes
     return "\n".join(lines) + "\n"
 

@@ -10,7 +10,7 @@ import os
 import pathlib
 import subprocess
 import sys
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -48,11 +48,10 @@ def true_phase(of: tofray.Camera) -> Any:
 
     plain = copy.deepcopy(of)
     plain.pixel.phase_offset_rad = 0
-    sine = "sine"
     out = []
     for one in (of, plain):
         silent = copy.deepcopy(one)
-        silent.illumination[0].waveform.kind = sine
+        silent.illumination[0].waveform.kind = "sine"
         scene = tofray.scene({"objects": [{"plane": {"point": [0, 0, "1 m"], "normal": [0, 0, -1], "reflectivity": "80 %"}}]})
         frame = tofray.Simulator(scene, silent, noise="off").frame(0)
         taps = np.asarray(frame.raw.tap_a, float) - np.asarray(frame.raw.tap_b, float) if frame.raw.tap_a is not None else np.asarray(frame.raw.raw, float) - silent.adc.mid_code
@@ -61,7 +60,7 @@ def true_phase(of: tofray.Camera) -> Any:
     return np.angle(np.exp(1j * (out[0] - out[1])))
 
 
-def range_errors(of: tofray.Camera, distance: float, calibration: str, specimen: str = "") -> Any:
+def range_errors(of: tofray.Camera, distance: float, calibration: Literal["exact", "none", ""], specimen: str = "") -> Any:
     """Of a wall between the others, the mean of 16 frames."""
     import copy
 
@@ -69,7 +68,7 @@ def range_errors(of: tofray.Camera, distance: float, calibration: str, specimen:
     if specimen:
         decoder.decoding.calibration = tofray.load_camera("pico-flexx", "calibration", set={"modes.calibration": SIXTY, "readout": "{region: {left: 82, top: 66, width: 60, height: 40}}",
                                                                                              "decoding.calibration": specimen}).decoding.calibration
-    else:
+    elif calibration:
         decoder.decoding.calibration.kind = calibration
     z = np.stack([tofray.process(frame.raw, decoder).z_m for frame in frames(of, distance, 16, 77)])
     return z.mean(axis=0) - distance
