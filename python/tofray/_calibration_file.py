@@ -54,6 +54,11 @@ def _millimetres(value: float) -> str:
     return "" if math.isnan(value) else f" {1e3 * value:6.2f}"
 
 
+def _error(value: float, digits: int) -> str:
+    """Thousandths; nothing of what is not known."""
+    return f" +- {1e3 * value:.{digits}f}" if math.isfinite(value) else ""
+
+
 def report(found: SpecimenCalibration) -> str:
     import numpy as np
 
@@ -61,14 +66,15 @@ def report(found: SpecimenCalibration) -> str:
     for one in found.frequencies:
         half = 299792458.0 / (4 * math.pi * one.modulation_frequency_hz) * 1e3
         lines.append(f"{1e-6 * one.modulation_frequency_hz:g} MHz (1 mm is {1e3 / half:.2f} mrad)")
-        lines.append(f"  offset    {1e3 * one.phase_offset_rad:9.2f} +- {1e3 * one.phase_offset_error_rad:.2f} mrad")
+        lines.append(f"  offset    {1e3 * one.phase_offset_rad:9.2f}{_error(one.phase_offset_error_rad, 2)} mrad")
         for order, c, s, ce, se in zip(one.orders, one.cos_rad, one.sin_rad, one.cos_error_rad, one.sin_error_rad):
-            lines.append(f"  order {order:2d}  {1e3 * c:9.3f} +- {1e3 * ce:.3f} mrad cos, {1e3 * s:9.3f} +- {1e3 * se:.3f} mrad sin")
+            lines.append(f"  order {order:2d}  {1e3 * c:9.3f}{_error(ce, 3)} mrad cos, {1e3 * s:9.3f}{_error(se, 3)} mrad sin")
         error = float(np.nanmedian(one.pixel_phase_error_rad)) if np.isfinite(one.pixel_phase_error_rad).any() else math.nan
-        lines.append(f"  pixels    {1e3 * float(one.pixel_phase_rad.std()):9.2f} mrad from pixel to pixel, each known to {1e3 * error:.2f} mrad")
+        lines.append(f"  pixels    {1e3 * float(one.pixel_phase_rad.std()):9.2f} mrad from pixel to pixel" + (f", each known to {1e3 * error:.2f} mrad" if math.isfinite(error) else ""))
         if math.isfinite(one.drift_error_m_per_kelvin):
             lines.append(f"  drift     {1e3 * one.drift_m_per_kelvin:9.4f} +- {1e3 * one.drift_error_m_per_kelvin:.4f} mm/K")
-        lines.append(f"  chi^2     {one.chi_square:9.2f} for each degree of freedom")
+        if math.isfinite(one.chi_square):
+            lines.append(f"  chi^2     {one.chi_square:9.2f} for each degree of freedom")
     if found.held_out:
         lines += ["", "held out           without           with calibration (mean, and pixel to pixel)"]
     for row in found.held_out:
@@ -102,8 +108,8 @@ def read_specimen(camera: Camera, profile: str, file: str) -> SpecimenCalibratio
     for row in known.frequencies:
         one = FrequencyResult(row.modulation_frequency_hz, (shape[0], shape[1]))
         one.phase_offset_rad, one.drift_m_per_kelvin = row.phase_offset_rad, row.drift_m_per_kelvin
-        one.orders = list(range(1, 1 + len(row.wiggling_cos_rad)))
-        one.cos_rad, one.sin_rad = np.array(row.wiggling_cos_rad), np.array(row.wiggling_sin_rad)
+        one.orders = [i + 1 for i, both in enumerate(zip(row.wiggling_cos_rad, row.wiggling_sin_rad)) if any(both)]
+        one.cos_rad, one.sin_rad = (np.array([part[m - 1] for m in one.orders]) for part in (row.wiggling_cos_rad, row.wiggling_sin_rad))
         one.cos_error_rad = one.sin_error_rad = np.full(len(one.orders), np.nan)
         if len(row.pixel_phase_rad):
             one.pixel_phase_rad = np.array(row.pixel_phase_rad).reshape(shape)

@@ -179,10 +179,12 @@ void Filler::pixel_phases(const Value& name, FrequencyCalibration& out) {
   const base::Place place = name.place();
   const auto beside = place.source == nullptr ? calibration_folders_.end() : calibration_folders_.find(*place.source);
   const std::string& folder = beside == calibration_folders_.end() ? folder_ : beside->second;
-  if (folder.empty())
+  if (folder.empty()) {
+    out.pixel_phase_file.clear();  // said once
     return faults_.add(place, "the pixels' phases are not here",
                        "got the name of their file alone, " + base::in_quotes(name.text) +
                            "; name the calibration's file: --set camera.decoding.calibration=FILE, or --camera PROFILE");
+  }
   out.pixel_phase_rad = read_pixel_phases(name.text, folder, place);
 }
 
