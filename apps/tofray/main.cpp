@@ -42,6 +42,10 @@ void print_limits(bool json) {
     throw Error(ErrorKind::bad_input,
                 "error: fit is a command of the Python package\n  expected python3 -m tofray fit PROFILE FILE --free KEYS; it needs numpy "
                 "and scipy");
+  if (word == "calibrate")
+    throw Error(ErrorKind::bad_input,
+                "error: calibrate is a command of the Python package\n  expected python3 -m tofray calibrate phase PROFILE "
+                "DISTANCE=FOLDER … -o FILE; it needs numpy.\n  An OpenCV or ROS file as a profile's lens: tofray calibration FILE");
   if (word == "dask")
     throw Error(ErrorKind::bad_input,
                 "error: dask is a command of the Python package\n  expected python3 -m tofray dask FOLDER --scheduler ADDRESS; it needs "

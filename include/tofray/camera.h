@@ -208,6 +208,26 @@ struct ImageFilter {
   double goal_m = 0.01;  ///< adaptive: neighbours are added, ring by ring, until the noise is no more than this
 };
 
+/// What a decoder knows of one modulation frequency of a specimen: by how much phases are measured too large (theory 4.13).
+struct FrequencyCalibration {
+  double modulation_frequency_hz = 0;
+  double phase_offset_rad = 0;    ///< of all pixels, at DecoderCalibration::reference_celsius
+  double drift_m_per_kelvin = 0;  ///< half a path that is measured too long for each kelvin beyond that, besides
+  /// Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+  std::vector<double> wiggling_cos_rad = {}, wiggling_sin_rad = {};
+  std::string pixel_phase_file = {};         ///< what the following are called: `meta` says this alone of them
+  std::vector<double> pixel_phase_rad = {};  ///< [height][width] of the image that is read out, besides; none: 0
+};
+
+/// What decoding knows of the specimen that took the raw frames. (Camera::calibration is what raw data are off by, and is always known.)
+struct DecoderCalibration {
+  enum class Kind { exact, none, specimen };
+  /// exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels all alike; specimen: what follows.
+  Kind kind = Kind::exact;
+  double reference_celsius = 25;                       ///< at which it was measured
+  std::vector<FrequencyCalibration> frequencies = {};  ///< one for each of the mode
+};
+
 /// How raw frames become depth (theory 4).
 struct Decoding {
   bool wiggling_correction = true;
@@ -225,6 +245,7 @@ struct Decoding {
   int temporal_frames = 1;     ///< range is the mean over so many frames, the last one and those before it; 1: of each by itself
   double temporal_sigmas = 3;  ///< … of those that are off by less than this times the noise of the difference
   ImageFilter filter;
+  DecoderCalibration calibration = {};
 };
 
 /// How much of the distance is drift with temperature, and with the time since the camera was switched on.

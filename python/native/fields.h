@@ -121,7 +121,11 @@ TOFRAY_FIELDS(Decoding, &Decoding::wiggling_correction, &Decoding::noise_thresho
               &Decoding::flying_far_z_m, &Decoding::flying_far_limit_m, &Decoding::flying_sigmas, &Decoding::flying_check,
               &Decoding::asymmetry_limit_e, &Decoding::asymmetry_sigmas, &Decoding::asymmetry_reject, &Decoding::multipath_limit_m,
               &Decoding::multipath_sigmas, &Decoding::multipath_reject, &Decoding::temporal_frames,
-              &Decoding::temporal_sigmas, &Decoding::filter)
+              &Decoding::temporal_sigmas, &Decoding::filter, &Decoding::calibration)
+TOFRAY_FIELDS(FrequencyCalibration, &FrequencyCalibration::modulation_frequency_hz, &FrequencyCalibration::phase_offset_rad,
+              &FrequencyCalibration::drift_m_per_kelvin, &FrequencyCalibration::wiggling_cos_rad, &FrequencyCalibration::wiggling_sin_rad,
+              &FrequencyCalibration::pixel_phase_file, &FrequencyCalibration::pixel_phase_rad)
+TOFRAY_FIELDS(DecoderCalibration, &DecoderCalibration::kind, &DecoderCalibration::reference_celsius, &DecoderCalibration::frequencies)
 TOFRAY_FIELDS(Temperature, &Temperature::celsius, &Temperature::reference_celsius, &Temperature::drift_m_per_kelvin,
               &Temperature::warm_up_m, &Temperature::warm_up_time_s, &Temperature::since_start_s)
 TOFRAY_FIELDS(Calibration, &Calibration::range_offset_m, &Calibration::phase_offset)
@@ -217,14 +221,14 @@ TOFRAY_FIELDS(SimulatorOptions, &SimulatorOptions::seed, &SimulatorOptions::nois
 template <class Call>
 void each_record(const Call& call) {
   const auto all = [&]<class... T>(std::tuple<T...>*) { (call(static_cast<T*>(nullptr)), ...); };
-  using Records =
-      std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame, Mode,
-                 ImageFilter, Decoding, Temperature, Interference, Calibration, SpreadSpectrum, Readout, AutoExposure, Camera, Material,
-                 Plane, Sphere, Box, Triangle, Cylinder, Rectangle, Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient,
-                 TransientBins, Transport, Pose, CameraKeyframe, Override, CameraChoice, SceneFile, Scene, RanOn, PlanStep, Pinhole,
-                 Placement, PlacedObject, FrameRequest, ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase,
-                 CameraQuestion, NoiseAt, NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain,
-                 BounceShare, PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
+  using Records = std::tuple<Curve, PixelMask, Sensor, Scatter, Lens, Filter, Pattern, Waveform, Area, Illumination, Pixel, Adc, RawFrame,
+                             Mode, ImageFilter, FrequencyCalibration, DecoderCalibration, Decoding, Temperature, Interference, Calibration,
+                             SpreadSpectrum, Readout, AutoExposure, Camera, Material, Plane, Sphere, Box, Triangle, Cylinder, Rectangle,
+                             Disk, Capsule, Cone, Mesh, Rotation, Keyframe, Object, Ambient, TransientBins, Transport, Pose, CameraKeyframe,
+                             Override, CameraChoice, SceneFile, Scene, RanOn, PlanStep, Pinhole, Placement, PlacedObject, FrameRequest,
+                             ObjectInView, ObjectPlace, SceneFinding, SceneReport, InvalidPixels, AmbientCase, CameraQuestion, NoiseAt,
+                             NoiseAtDistances, CameraReport, ChainRawFrame, ChainPhase, UnwrapCandidate, PixelChain, BounceShare,
+                             PixelBounces, Validity, InputFile, FileRecord, Remark, Inputs, RunResult>;
   all(static_cast<Records*>(nullptr));
 }
 

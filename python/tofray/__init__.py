@@ -25,6 +25,11 @@ if TYPE_CHECKING:
         Budget as Budget,
         budget as budget,
     )
+    from ._calibrate import (
+        SpecimenCalibration as SpecimenCalibration,
+        calibrate_phase as calibrate_phase,
+        calibrate_temperature as calibrate_temperature,
+    )
     from ._dataset import (
         Dataset as Dataset,
         Drawn as Drawn,
@@ -71,11 +76,13 @@ if TYPE_CHECKING:
         Cone as Cone,
         Curve as Curve,
         Cylinder as Cylinder,
+        DecoderCalibration as DecoderCalibration,
         Decoding as Decoding,
         Disk as Disk,
         FileRecord as FileRecord,
         Filter as Filter,
         FrameRequest as FrameRequest,
+        FrequencyCalibration as FrequencyCalibration,
         Illumination as Illumination,
         ImageFilter as ImageFilter,
         InputFile as InputFile,
@@ -199,6 +206,7 @@ if TYPE_CHECKING:
 _HOME = {
     "_arrays": ("Depth", "Raw", "Truth"),
     "_budget": ("Budget", "budget"),
+    "_calibrate": ("SpecimenCalibration", "calibrate_phase", "calibrate_temperature"),
     "_dataset": ("Dataset", "Drawn"),
     "_errors": ("Error",),
     "_fit": ("Fit", "FitParameter", "fit"),
@@ -207,7 +215,7 @@ _HOME = {
     "_load": ("camera", "load_camera", "load_scene", "scene"),
     "_model": (
         "Adc", "Ambient", "AmbientCase", "Area", "AutoExposure", "BounceShare", "Box", "Calibration", "Camera", "CameraChoice", "CameraKeyframe", "CameraQuestion", "CameraReport", "Capsule",
-        "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
+        "ChainPhase", "ChainRawFrame", "Cone", "Curve", "Cylinder", "DecoderCalibration", "Decoding", "Disk", "FileRecord", "Filter", "FrameRequest", "FrequencyCalibration", "Illumination", "ImageFilter", "InputFile", "Inputs", "Interference",
         "InvalidPixels", "Keyframe", "Lens", "Material", "Mesh", "Mode", "NoiseAt", "NoiseAtDistances", "Object", "ObjectInView", "ObjectPlace", "Override", "Pattern", "Pinhole", "Pixel", "PixelBounces", "PixelChain",
         "PixelMask", "PlacedObject", "Placement", "PlanStep", "Plane", "Pose", "RanOn", "RawFrame", "Readout", "Rectangle", "Remark", "Rotation", "RunResult", "Scatter", "Scene", "SceneFile", "SceneFinding", "SceneReport", "Sensor",
         "Sphere", "SpreadSpectrum", "Temperature", "TransientBins", "Transport", "Triangle", "UnwrapCandidate", "Validity", "Waveform",

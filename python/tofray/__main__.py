@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""``python -m tofray …``: the command line, with the same arguments; ``python -m tofray fit …`` and ``dask …`` are of Python alone."""
+"""``python -m tofray …``: the command line, with the same arguments; ``python -m tofray fit …``, ``calibrate …`` and ``dask …`` are of Python alone."""
 
 from __future__ import annotations
 
@@ -25,6 +25,10 @@ def main() -> int:
         from ._fit_command import main as fit
 
         return fit(sys.argv[2:])
+    if sys.argv[1:2] == ["calibrate"]:
+        from ._calibrate_command import main as calibrate
+
+        return calibrate(sys.argv[2:])
     if sys.argv[1:2] == ["dask"]:
         from ._dask_command import main as dask
 

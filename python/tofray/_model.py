@@ -827,6 +827,87 @@ class ImageFilter(Record):
         self.goal_m = goal_m
 
 
+class FrequencyCalibration(Record):
+    """What a decoder knows of one modulation frequency of a specimen: by how much phases are measured
+    too large (theory 4.13).
+
+    Attributes
+    ----------
+    modulation_frequency_hz : float, Hz
+    phase_offset_rad : float, rad
+        Of all pixels, at DecoderCalibration::reference_celsius.
+    drift_m_per_kelvin : float, m/K
+        Half a path that is measured too long for each kelvin beyond that, besides.
+    wiggling_cos_rad : list[float], rad
+        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+    wiggling_sin_rad : list[float], rad
+        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+    pixel_phase_file : str
+        What the following are called: `meta` says this alone of them.
+    pixel_phase_rad : list[float], rad
+        [height][width] of the image that is read out, besides; none: 0.
+    """
+    __slots__ = ("modulation_frequency_hz", "phase_offset_rad", "drift_m_per_kelvin", "wiggling_cos_rad", "wiggling_sin_rad",
+                 "pixel_phase_file", "pixel_phase_rad")
+    modulation_frequency_hz: float
+    phase_offset_rad: float
+    drift_m_per_kelvin: float
+    wiggling_cos_rad: list[float]
+    wiggling_sin_rad: list[float]
+    pixel_phase_file: str
+    pixel_phase_rad: list[float]
+
+    def __init__(
+        self,
+        *,
+        modulation_frequency_hz: float = 0.0,
+        phase_offset_rad: float = 0.0,
+        drift_m_per_kelvin: float = 0.0,
+        wiggling_cos_rad: Sequence[float] = (),
+        wiggling_sin_rad: Sequence[float] = (),
+        pixel_phase_file: str = '',
+        pixel_phase_rad: Sequence[float] = (),
+    ) -> None:
+        self.modulation_frequency_hz = modulation_frequency_hz
+        self.phase_offset_rad = phase_offset_rad
+        self.drift_m_per_kelvin = drift_m_per_kelvin
+        self.wiggling_cos_rad = list(wiggling_cos_rad)
+        self.wiggling_sin_rad = list(wiggling_sin_rad)
+        self.pixel_phase_file = pixel_phase_file
+        self.pixel_phase_rad = list(pixel_phase_rad)
+
+
+class DecoderCalibration(Record):
+    """What decoding knows of the specimen that took the raw frames. (Camera::calibration is what raw
+    data are off by, and is always known.).
+
+    Attributes
+    ----------
+    kind : Literal["exact", "none", "specimen"]
+        Exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels
+        all alike; specimen: what follows.
+    reference_celsius : float, °C
+        At which it was measured.
+    frequencies : list[FrequencyCalibration]
+        One for each of the mode.
+    """
+    __slots__ = ("kind", "reference_celsius", "frequencies")
+    kind: Literal["exact", "none", "specimen"]
+    reference_celsius: float
+    frequencies: list[FrequencyCalibration]
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["exact", "none", "specimen"] = 'exact',
+        reference_celsius: float = 25.0,
+        frequencies: Sequence[FrequencyCalibration] = (),
+    ) -> None:
+        self.kind = kind
+        self.reference_celsius = reference_celsius
+        self.frequencies = list(frequencies)
+
+
 class Decoding(Record):
     """How raw frames become depth (theory 4).
 
@@ -870,11 +951,12 @@ class Decoding(Record):
     temporal_sigmas : float, 1
         … of those that are off by less than this times the noise of the difference.
     filter : ImageFilter
+    calibration : DecoderCalibration
     """
     __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
                  "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
                  "asymmetry_limit_e", "asymmetry_sigmas", "asymmetry_reject", "multipath_limit_m", "multipath_sigmas",
-                 "multipath_reject", "temporal_frames", "temporal_sigmas", "filter")
+                 "multipath_reject", "temporal_frames", "temporal_sigmas", "filter", "calibration")
     wiggling_correction: bool
     noise_threshold_m: float
     amplitude_threshold_e: float
@@ -895,6 +977,7 @@ class Decoding(Record):
     temporal_frames: int
     temporal_sigmas: float
     filter: ImageFilter
+    calibration: DecoderCalibration
 
     def __init__(
         self,
@@ -919,6 +1002,7 @@ class Decoding(Record):
         temporal_frames: int = 1,
         temporal_sigmas: float = 3.0,
         filter: ImageFilter | None = None,
+        calibration: DecoderCalibration | None = None,
     ) -> None:
         self.wiggling_correction = wiggling_correction
         self.noise_threshold_m = noise_threshold_m
@@ -940,6 +1024,7 @@ class Decoding(Record):
         self.temporal_frames = temporal_frames
         self.temporal_sigmas = temporal_sigmas
         self.filter = ImageFilter() if filter is None else filter
+        self.calibration = DecoderCalibration() if calibration is None else calibration
 
 
 class Temperature(Record):
@@ -3485,14 +3570,14 @@ class RunResult(Record):
 
 __all__ = [
     "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
-    "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "Decoding", "Temperature",
-    "Interference", "Calibration", "SpreadSpectrum", "Readout", "AutoExposure", "Camera",
-    "Material", "Plane", "Sphere", "Box", "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule",
-    "Cone", "Mesh", "Rotation", "Keyframe", "Object", "Ambient", "TransientBins", "Transport",
-    "Pose", "CameraKeyframe", "Override", "CameraChoice", "SceneFile", "Scene", "RanOn", "PlanStep",
-    "Pinhole", "Placement", "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace",
-    "SceneFinding", "SceneReport", "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt",
-    "NoiseAtDistances", "CameraReport", "ChainRawFrame", "ChainPhase", "UnwrapCandidate",
-    "PixelChain", "BounceShare", "PixelBounces", "Validity", "InputFile", "FileRecord", "Remark",
-    "Inputs", "RunResult",
+    "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "FrequencyCalibration",
+    "DecoderCalibration", "Decoding", "Temperature", "Interference", "Calibration",
+    "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane", "Sphere", "Box",
+    "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe",
+    "Object", "Ambient", "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override",
+    "CameraChoice", "SceneFile", "Scene", "RanOn", "PlanStep", "Pinhole", "Placement",
+    "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace", "SceneFinding", "SceneReport",
+    "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
+    "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces",
+    "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
 ]

@@ -32,6 +32,7 @@ Camera pixel_alone(Camera camera, double u, double v) {
   camera.decoding.temporal_frames = 1, camera.decoding.filter = {};
   Pixel& pixel = camera.pixel;
   pixel.crosstalk_left_right = pixel.crosstalk_up_down = pixel.blooming_share = pixel.blooming_limit_e = 0;
+  for (FrequencyCalibration& one : camera.decoding.calibration.frequencies) one.pixel_phase_file.clear(), one.pixel_phase_rad.clear();
   pixel.prnu = pixel.dsnu_dn = pixel.delay_s = pixel.phase_offset_rad = 0;
   return camera;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/calibration.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/constants.h"
@@ -21,6 +23,15 @@ Camera with_offsets(const Camera& camera) {
     if (phase_offset) frame.reference_phase_rad += phase_offset->evaluate(frame.modulation_frequency_hz);
   }
   return out;
+}
+
+const FrequencyCalibration* calibration_at(const DecoderCalibration& known, double modulation_frequency_hz) {
+  constexpr double same = 1e-6;
+  const auto is_it = [&](const FrequencyCalibration& one) {
+    return std::abs(one.modulation_frequency_hz - modulation_frequency_hz) <= same * modulation_frequency_hz;
+  };
+  const auto found = std::find_if(known.frequencies.begin(), known.frequencies.end(), is_it);
+  return found == known.frequencies.end() ? nullptr : &*found;
 }
 
 }  // namespace tofray::base

@@ -12,4 +12,7 @@ namespace tofray::base {
 /// @param camera  was seen to be good
 Camera with_offsets(const Camera& camera);
 
+/// What a specimen's calibration says of a modulation frequency; null: nothing.
+const FrequencyCalibration* calibration_at(const DecoderCalibration& known, double modulation_frequency_hz);
+
 }  // namespace tofray::base

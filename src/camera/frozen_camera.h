@@ -82,6 +82,7 @@ class FrozenCamera {
   void freeze_decoder(bool noise);
   void freeze_modulations(double grey_time);
   void freeze_without_modulation();
+  void freeze_known_delays();
 
   Sensor sensor_pixels_;  // the whole sensor, and what is read of it
   Pixel one_pixel_;
@@ -111,6 +112,7 @@ class FrozenCamera {
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
   Map gain_, offset_, delay_;
   std::vector<float> late_, read_;  // delay_ with the pixels' phases in it, [modulation][height][width]
+  std::vector<float> known_late_;   // the same as decoding knows it of a specimen
   std::vector<std::vector<float>> wiggling_, light_;
   std::vector<double> start_;
 };

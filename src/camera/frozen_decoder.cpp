@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 
+#include "base/calibration.h"
 #include "base/constants.h"
 #include "base/faults.h"
 #include "base/text.h"
@@ -113,6 +114,37 @@ std::vector<float> with_steps(const std::vector<double>& values) {
     out.insert(out.end(), {single(values[j]), single(values[(j + 1) % values.size()] - values[j])});
   return out;
 }
+
+/// What a specimen's calibration says of measured phases: all that they are too large by, but for the pixel's own part.    [theory: eq. 4.35]
+std::vector<double> correction_of(const FrequencyCalibration& one, double drifted_m, double half_wave, bool wiggles) {
+  std::vector<double> out;
+  for (int j = 0; j < wiggling_nodes; ++j) {
+    double too_large = one.phase_offset_rad + two_pi * drifted_m / half_wave;
+    for (std::size_t i = 0; wiggles && i < one.wiggling_cos_rad.size(); ++i) {
+      const double angle = static_cast<double>(i + 1) * two_pi * j / wiggling_nodes;
+      too_large += one.wiggling_cos_rad[i] * setup::cos(angle) + one.wiggling_sin_rad[i] * setup::sin(angle);
+    }
+    out.push_back(-too_large / two_pi);
+  }
+  return out;
+}
+
+/// The table of measured phases as decoding knows it. Without the waveform all phases have the amplitude of its first harmonic.
+WigglingTable known_wiggling(const Camera& camera, double frequency, const std::vector<Harmonic>& harmonics,
+                             const std::vector<double>& tau) {
+  const DecoderCalibration& known = camera.decoding.calibration;
+  if (known.kind == DecoderCalibration::Kind::exact) return *shared_wiggling_table(harmonics, tau, wiggling_nodes);
+  WigglingTable out;
+  out.amplitude.assign(wiggling_nodes, harmonics.front().amplitude), out.correction.assign(wiggling_nodes, 0.0);
+  if (known.kind == DecoderCalibration::Kind::none) return out;
+  const FrequencyCalibration* one = calibration_at(known, frequency);
+  if (one == nullptr) refuse("the calibration has no " + number_text(1e-6 * frequency) + " MHz");
+  const double drifted = one->drift_m_per_kelvin * (camera.temperature.celsius - known.reference_celsius);
+  const double half_wave = speed_of_light / camera.refractive_index / (2 * frequency);
+  out.correction = correction_of(*one, drifted, half_wave, camera.decoding.wiggling_correction);
+  return out;
+}
+
 bool is_even(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return *most - *least <= 1e-6 * *most;
@@ -181,7 +213,8 @@ void FrozenCamera::freeze_decoder(bool noise) {
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
   d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
-  d.delay = sensor_.delay, d.delay_stride = sensor_.delay_stride, d.read = sensor_.read;
+  d.read = sensor_.read;
+  freeze_known_delays();
   d.effects = d.delay != nullptr || d.suppression_threshold > 0 || d.read.cell != nullptr;
 }
 
@@ -200,8 +233,7 @@ void FrozenCamera::freeze_modulations(double grey_time) {
              number_text(1e-6 * frequency) + " MHz; mind the pixel's contrast, bandwidths, rise time, jitter and modulation depth");
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
-    const auto shared_table = shared_wiggling_table(harmonics, group.tau, wiggling_nodes);
-    const WigglingTable& table = *shared_table;
+    const WigglingTable table = known_wiggling(camera_, frequency, harmonics, group.tau);
     wiggling_.push_back(with_steps(table.correction));
     std::vector<double> per_amplitude;
     for (const double one : table.amplitude) per_amplitude.push_back(1 / one);
@@ -226,6 +258,23 @@ void FrozenCamera::freeze_modulations(double grey_time) {
   }
   const double common = wave_speed / (2 * modulations_.base_hz);
   d.common_range = single(common), d.per_common_range = single(1 / common);
+}
+
+/// How late each pixel is, as far as decoding knows it.
+void FrozenCamera::freeze_known_delays() {
+  const DecoderCalibration& known = camera_.decoding.calibration;
+  if (known.kind == DecoderCalibration::Kind::exact) decoder_.delay = sensor_.delay, decoder_.delay_stride = sensor_.delay_stride;
+  if (known.kind != DecoderCalibration::Kind::specimen) return;
+  const auto has_phases = [](const FrequencyCalibration& one) { return !one.pixel_phase_rad.empty(); };
+  if (std::none_of(known.frequencies.begin(), known.frequencies.end(), has_phases)) return;
+  const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
+  for (const double frequency : modulations_.frequency_hz) {
+    const FrequencyCalibration* one = calibration_at(known, frequency);
+    const bool knows = one != nullptr && has_phases(*one);
+    if (knows && one->pixel_phase_rad.size() != pixels) refuse("the calibration's pixels' phases are of another image");
+    for (std::size_t i = 0; i < pixels; ++i) known_late_.push_back(knows ? single(one->pixel_phase_rad[i] / (two_pi * frequency)) : 0.0f);
+  }
+  decoder_.delay = known_late_.data(), decoder_.delay_stride = static_cast<std::int32_t>(pixels);
 }
 
 // One modulation without raw frames: its amplitude is 0, which says "no return" of every pixel; ambient light is that of the mean exposure.

@@ -273,8 +273,8 @@ struct DecoderView {
   float flying_factor;        ///< square of how many σ a flying pixel is off; 0 where noise is off
   std::int32_t flying_check;  ///< 0: none are looked for
   ReadCurveView read;         ///< as of the sensor
-  const float* delay;         ///< [modulations][height][width] [s], or null
-  std::int32_t delay_stride;  ///< as of the sensor
+  const float* delay;         ///< [modulations][height][width] [s] as far as it is known, or null
+  std::int32_t delay_stride;  ///< of these, as of the sensor's
   std::int32_t effects;       ///< 0: it knows of no suppression, curve or delays
   bool operator==(const DecoderView&) const = default;
 };

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <map>
 
 #include "base/text.h"
 #include "files/text_file.h"
@@ -9,6 +10,7 @@
 #include "load/convert.h"
 #include "load/fill.h"
 #include "load/load.h"
+#include "load/specimen.h"
 #include "load/trees.h"
 #include "yaml/settings.h"
 
@@ -31,11 +33,12 @@ struct Change {
   std::string key;
   std::string text;
   base::Place place;
+  NamedBy by;
 };
 
 std::vector<Change> changes_of(const CameraOptions& options) {
   std::vector<Change> changes;
-  for (const auto& [key, text] : options.set) changes.push_back({key, text, base::whole("--set " + key)});
+  for (const auto& [key, text] : options.set) changes.push_back({key, text, base::whole("--set " + key), {".", {}, true}});
   return changes;
 }
 
@@ -49,8 +52,9 @@ Node mode_node(const std::string& name, const base::Place& place) {
 
 struct Profile {
   std::string text;
-  std::string source;  ///< for messages
-  std::string folder;  ///< of its table files; empty: none
+  std::string source;     ///< for messages
+  std::string folder;     ///< of its table files; empty: none
+  std::string root = {};  ///< as of files::read_reference
 };
 
 /// What is set for a run counts more than what a mode says: where a mode has, say, a decoding of its own, it is changed as well.
@@ -71,7 +75,8 @@ struct Choice {
   std::vector<Change> changes;
 };
 
-Node tree_of(const Choice& choice) {
+/// @param folders  set to where what calibrations name lies
+Node tree_of(const Choice& choice, std::map<std::string, std::string>& folders) {
   refuse_too_many(choice.changes.size(), base::whole(choice.profile.source));
   Node root = parse_tree(choice.profile.text, choice.profile.source);
   if (!choice.mode.empty()) set_key(root, "mode", mode_node(choice.mode, choice.mode_place), choice.mode_place);
@@ -79,16 +84,21 @@ Node tree_of(const Choice& choice) {
     set_key(root, change.key, parse_value(change.text, change.place), change.place);
     set_keys_of_modes(root, change);
   }
+  std::map<std::string, NamedBy> who{{choice.profile.source, {choice.profile.folder, choice.profile.root}}};
+  for (const auto& change : choice.changes) who.emplace(*change.place.source, change.by);
+  folders = splice_calibrations(root, who);
   return root;
 }
 
 Camera interpret(const Choice& choice, const SeeCamera& see_each_mode = {}) {
   const Profile& profile = choice.profile;
-  const Node root = tree_of(choice);
+  std::map<std::string, std::string> calibrations;
+  const Node root = tree_of(choice, calibrations);
   base::Faults faults;
   const Value value = read(model::camera_form(), root, faults);
   Camera camera;
   Filler filler(profile.folder, faults);
+  filler.set_calibration_folders(std::move(calibrations));
   filler.fill(value, camera);
   camera.source = profile.source;
   const Modes modes(value, faults);
@@ -129,14 +139,15 @@ Profile profile_of(const Scene& scene, const std::string& root) {
   Profile out;
   const std::string folder = scene.source.starts_with("<") ? "." : folder_of(scene.source);
   out.text = read_reference(name, folder, root, place, out.source);
-  out.folder = folder_of(out.source);
+  out.folder = folder_of(out.source), out.root = root;
   return out;
 }
 
 Choice choice_of(const Scene& scene, const CameraOptions& options) {
   std::vector<Change> changes;
+  const std::string folder = scene.source.starts_with("<") ? "." : folder_of(scene.source);
   for (const auto& one : scene.camera.overrides)
-    changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where)});
+    changes.push_back({one.key, one.value, base::whole(one.where.empty() ? "camera." + one.key : one.where), {folder, options.root}});
   const bool ours = !options.mode.empty();
   const std::string& where = scene.camera.mode_where;
   const base::Place mode_place = base::whole(ours ? "--mode" : where.empty() ? "camera.mode" : where);
@@ -154,11 +165,13 @@ Camera camera_from_text(const std::string& text, const std::string& source, cons
 Node camera_tree(const Scene& scene, const CameraOptions& options, std::string& source) {
   const Choice choice = choice_of(scene, options);
   source = choice.profile.source;
-  return tree_of(choice);
+  std::map<std::string, std::string> folders;
+  return tree_of(choice, folders);
 }
 
 Node camera_tree(const std::string& text, const std::string& source, const CameraOptions& options) {
-  return tree_of({{text, source, {}}, options.mode, base::whole("--mode"), changes_of(options)});
+  std::map<std::string, std::string> folders;
+  return tree_of({{text, source, folder_of(source)}, options.mode, base::whole("--mode"), changes_of(options)}, folders);
 }
 
 }  // namespace tofray::load

@@ -9,6 +9,7 @@
 #include "files/text_file.h"
 #include "load/convert.h"
 #include "load/rotation_load.h"
+#include "load/specimen.h"
 
 namespace tofray::load {
 
@@ -90,6 +91,7 @@ void Filler::fill(const Value& map, const Table& table, void* record) {
     }
   }
   if (&table == &model::table_of<Pose>()) complete_pose(map, *static_cast<Pose*>(record), faults_);
+  if (&table == &model::table_of<FrequencyCalibration>()) pixel_phases(map["pixel_phase"], *static_cast<FrequencyCalibration*>(record));
   if (&table == &model::table_of<Rotation>()) complete_rotation(map, *static_cast<Rotation*>(record), faults_);
   if (map.good && table.complete) table.complete(record, [&](const void* member) { return says(map, table, record, member); });
 }
@@ -170,6 +172,20 @@ std::vector<std::vector<double>> Filler::number_file(const Value& name) {
     return rows;
   }
   return rows_of_numbers(content, path, faults_);
+}
+
+void Filler::pixel_phases(const Value& name, FrequencyCalibration& out) {
+  if (!name || !name.good || name.text.empty()) return;
+  const base::Place place = name.place();
+  const auto beside = place.source == nullptr ? calibration_folders_.end() : calibration_folders_.find(*place.source);
+  const std::string& folder = beside == calibration_folders_.end() ? folder_ : beside->second;
+  if (folder.empty()) {
+    out.pixel_phase_file.clear();  // said once
+    return faults_.add(place, "the pixels' phases are not here",
+                       "got the name of their file alone, " + base::in_quotes(name.text) +
+                           "; name the calibration's file: --set camera.decoding.calibration=FILE, or --camera PROFILE");
+  }
+  out.pixel_phase_rad = read_pixel_phases(name.text, folder, place);
 }
 
 bool Filler::is_sound(const void* record, const Table& table) const {

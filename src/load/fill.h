@@ -28,6 +28,9 @@ class Filler : public model::Complaints {
   /// What poses are where nothing is said.
   void set_world_up(Scene::Up up) { world_up_ = up; }
 
+  /// Where the files lie that calibrations name, by the calibration's file.
+  void set_calibration_folders(std::map<std::string, std::string> folders) { calibration_folders_ = std::move(folders); }
+
   /// The struct stands for that map: faults of its members are reported there.
   template <class T>
   void remember(const yaml::Value& map, const T& record) {
@@ -55,7 +58,10 @@ class Filler : public model::Complaints {
   /// Rows of numbers out of a text file beside the profile.
   std::vector<std::vector<double>> number_file(const yaml::Value& name);
 
+  void pixel_phases(const yaml::Value& name, FrequencyCalibration& out);
+
   std::string folder_;
+  std::map<std::string, std::string> calibration_folders_;
   base::Faults& faults_;
   Scene::Up world_up_ = Scene::Up::minus_y;
   std::map<std::pair<const void*, const model::Table*>, const yaml::Value*> from_;

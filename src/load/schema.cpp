@@ -173,6 +173,7 @@ class Writer {
       if (!needs_more && one.exactly_one.empty()) brief.push_back(form.names[i]);
     }
     if (!brief.empty()) all.push_back({{"enum", std::move(brief)}});
+    if (!form.what.empty()) all.push_back({{"type", "string"}, {"description", form.what}});
     return {{"anyOf", std::move(all)}};
   }
 

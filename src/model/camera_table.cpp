@@ -19,7 +19,7 @@ using base::pi;
 constexpr auto mask_side = static_cast<int>(base::limit::mask_side.value);
 constexpr auto kernel_side = static_cast<int>(base::limit::kernel_side.value);
 constexpr int scatter_gaussians = 4;
-constexpr int temporal_frames = 32, most_gains = 16, binning = 16;
+constexpr int temporal_frames = 32, most_gains = 16, binning = 16, wiggling_orders = 32;
 // Files say them by the rows themselves; `meta` has the numbers in one list.
 constexpr Number mask_size{none, {1, mask_side}, "2"};
 constexpr Number kernel_size{none, {1, kernel_side}, "3"};
@@ -249,6 +249,47 @@ const Table& table_of<ImageFilter>() {
 }
 
 template <>
+const Table& table_of<FrequencyCalibration>() {
+  constexpr Number swing{angle, {-1, 1}, "0.01 rad"};
+  static const Table rows =
+      table<FrequencyCalibration>(
+          number<&FrequencyCalibration::modulation_frequency_hz>("modulation_frequency", modulation_frequency, "of which all this is")
+              .required(),
+          number<&FrequencyCalibration::phase_offset_rad>("phase_offset", {angle, {-100, 100}, "0.2 rad"},
+                                                          "phases are measured too large by this in all pixels"),
+          number<&FrequencyCalibration::drift_m_per_kelvin>("drift", {drift, {-1, 1}, "0.2 mm/K"},
+                                                            "range for each kelvin of temperature.actual beyond the calibration's"),
+          group("wiggling", "what the harmonics do to the phase, as sines and cosines of 1, 2, ... times the measured phase",
+                numbers<&FrequencyCalibration::wiggling_cos_rad>("cos", swing, 1, wiggling_orders, "of each cosine, the first one first")
+                    .absent(),
+                numbers<&FrequencyCalibration::wiggling_sin_rad>("sin", swing, 1, wiggling_orders, "of each sine, as many").absent()),
+          words<&FrequencyCalibration::pixel_phase_file>(
+              "pixel_phase", "a file", "phases.npy",
+              "a file of NumPy beside this one or below: phase [rad] of each pixel [height, width], besides; 0 unless given")
+              .absent()
+              .in_meta_if_set(),
+          no_row<&FrequencyCalibration::pixel_phase_rad>("it is in that file"))
+          .check_with(wiggling_stays_in_order);
+  return rows;
+}
+
+template <>
+const Table& table_of<DecoderCalibration>() {
+  using Kind = DecoderCalibration::Kind;
+  constexpr auto kind_of = &DecoderCalibration::kind;
+  static const Table rows =
+      table<DecoderCalibration>(kind<kind_of>("kind", {"exact", "none", "specimen"}),
+                                number<&DecoderCalibration::reference_celsius>("reference", degrees, "temperature at which it was measured")
+                                    .when<kind_of>(Kind::specimen),
+                                records<&DecoderCalibration::frequencies>("frequencies", 0, raw_frames, "one for each of the mode")
+                                    .when<kind_of>(Kind::specimen)
+                                    .required())
+          .kind_may_be_missing()
+          .or_a_file("a specimen's file, as `tofray calibrate` writes it");
+  return rows;
+}
+
+template <>
 const Table& table_of<Decoding>() {
   static const Table rows =
       table<Decoding>(
@@ -282,6 +323,9 @@ const Table& table_of<Decoding>() {
                 number<&Decoding::multipath_sigmas>("sigmas", sigmas, "the difference has to be more than this times its noise, too"),
                 flag<&Decoding::multipath_reject>("reject", "whether the depth is invalid then")),
           record<&Decoding::filter>("filter", "filter over the range image"),
+          record<&Decoding::calibration>("calibration",
+                                         "what decoding knows of the specimen: exact (all), none (a sine, pixels alike), or a file of it")
+              .in_meta_if_set(),
           group("temporal", "mean over frames that follow each other, pixel by pixel",
                 number<&Decoding::temporal_frames>("frames", {none, {1, temporal_frames}, "4"},
                                                    "the last one and those before it; 1: each frame stands by itself"),

@@ -43,7 +43,7 @@ struct Form {
   std::vector<std::string> at_most_one;  ///< map: not two of these
   bool open = false;                     ///< map: keys that the table does not have are kept, not refused
   std::string tag, default_tag;
-  std::string what;  ///< text: what it is, e.g. "the name of a material"
+  std::string what;  ///< text: what it is, e.g. "the name of a material"; tagged: the file whose name may stand in its place
   int min_items = 0, max_items = 0;
   std::vector<std::pair<std::string, std::string>> meant;  ///< map: unknown keys that people try, and the dotted path that they mean
 };

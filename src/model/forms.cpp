@@ -145,6 +145,7 @@ Form form_of(const Table& table) {
   form.kind = Kind::tagged;
   form.tag = table.tag;
   form.names = kind->form.names;
+  form.what = table.file;
   if (table.default_kind) form.default_tag = fallback(*kind, table);
   for (std::size_t i = 0; i < form.names.size(); ++i) form.forms.push_back(map_of(table, static_cast<int>(i)));
   return form;

@@ -56,6 +56,7 @@ void cameras_make_sense(const Camera& camera, Complaints& complaints) {
   gains_are_those_of_the_adc(camera, complaints);
   something_is_read(camera, complaints);
   exposures_fit(camera, complaints);
+  calibration_is_of_the_camera(camera, complaints);
 }
 
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints) {

@@ -81,6 +81,7 @@ struct Table {
   int member_count = 0;                                       ///< of the struct
   const void* fresh = nullptr;                                ///< a struct as it is when nothing was set
   std::string tag;                                            ///< the key that says which kind it is; empty: there is but one
+  std::string file;                                           ///< of several kinds: a text may stand for it that is this file's name
   bool default_kind = false;                                  ///< where the key is missing, the fresh struct's kind holds
   std::vector<Key> more;                                      ///< further keys of files: the reader makes members of them
   std::vector<std::string> at_most_one, exactly_one;          ///< of the keys, those of `more` too
@@ -107,6 +108,11 @@ struct Table {
   }
   Table& with_meant(std::vector<std::pair<std::string, std::string>> words) {
     meant = std::move(words);
+    return *this;
+  }
+  /// A text that is no kind's name is a file with such a struct: this is what it is.
+  Table& or_a_file(std::string what) {
+    file = std::move(what);
     return *this;
   }
   Table& kind_may_be_missing() {

@@ -19,6 +19,10 @@ void cameras_make_sense(const Camera& camera, Complaints& complaints);
 void something_is_read(const Camera& camera, Complaints& complaints);
 /// Limits are in order, and the longest exposures fit into a frame.
 void exposures_fit(const Camera& camera, Complaints& complaints);
+/// Larger true phases are measured larger.
+void wiggling_stays_in_order(const FrequencyCalibration& frequency, Complaints& complaints);
+/// It has each modulation frequency of the mode once, and a phase for each pixel that is read out.
+void calibration_is_of_the_camera(const Camera& camera, Complaints& complaints);
 void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
 void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);
 void tables_shine(const Pattern& pattern, Complaints& complaints);

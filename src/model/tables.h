@@ -50,6 +50,10 @@ const Table& table_of<Scatter>();
 template <>
 const Table& table_of<ImageFilter>();
 template <>
+const Table& table_of<FrequencyCalibration>();
+template <>
+const Table& table_of<DecoderCalibration>();
+template <>
 const Table& table_of<Decoding>();
 template <>
 const Table& table_of<Temperature>();

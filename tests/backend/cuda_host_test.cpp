@@ -46,6 +46,30 @@ TEST(cuda_host, a_frame_of_the_usual_size_has_the_same_bytes_for_any_number_of_t
   }
 }
 
+// Delays that decoding knows are its own: there are two maps of them where the sensor has none, and one.
+TEST(cuda_host, decodes_by_what_is_known_of_a_specimen) {
+  const WithStandIn here;
+  const Scene scene = load_scene("card");
+  for (const double delay : {0.0, 1e-10}) {
+    Camera camera = small(load_camera(scene));
+    camera.pixel.delay_s = delay;
+    DecoderCalibration& known = camera.decoding.calibration;
+    known.kind = DecoderCalibration::Kind::none;
+    expect_same(scene, camera, {.seed = 7});
+    known.kind = DecoderCalibration::Kind::specimen;
+    for (const RawFrame& frame : camera.mode.sequence) {
+      if (!frame.lit || (!known.frequencies.empty() && known.frequencies.back().modulation_frequency_hz == frame.modulation_frequency_hz))
+        continue;
+      FrequencyCalibration one{frame.modulation_frequency_hz, 0.1, 1e-4, {0, 0.01}, {0.01, 0}, "phases.npy", {}};
+      for (int i = 0; i < 21 * 15; ++i)
+        one.pixel_phase_rad.push_back(1e-3 * (i % 17) + 0.01 * static_cast<double>(known.frequencies.size()));
+      known.frequencies.push_back(one);
+    }
+    ASSERT_EQ(known.frequencies.size(), 2U);
+    expect_same(scene, camera, {.seed = 7});
+  }
+}
+
 TEST(cuda_host, keeps_the_light_of_what_stands_still) {
   WithStandIn here;
   const Scene scene = load_scene("card");

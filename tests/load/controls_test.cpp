@@ -199,6 +199,8 @@ TEST(controls, have_every_key_of_the_tables) {
       {{"camera.pixel.contrast", "{modulation_frequency: [10 MHz, 50 MHz, 100 MHz], value: [0.8, 0.7, 0.6]}"}},
       {{"camera.decoding.filter", "{kind: bilateral}"}},
       {{"camera.decoding.filter", "{kind: gaussian}"}},
+      {{"camera.decoding.calibration",
+        "{kind: specimen, frequencies: [{modulation_frequency: 80.32 MHz}, {modulation_frequency: 60.24 MHz}]}"}},
       {{"camera.calibration.phase_offset", "{modulation_frequency: [10 MHz, 100 MHz], value: [0 rad, 0.1 rad]}"}},
       {{"camera.pixel.quantum_efficiency", "{wavelength: [800 nm, 900 nm], value: [0.4, 0.3]}"}}};
   for (const Settings& set : of_camera) {

@@ -51,6 +51,7 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
       // Keyframes stand in the place of all these.
       if (has_keyframes && (v % 2 == 0 ? row.name == "keyframes" : placed.count(row.name) > 0)) continue;
       if (row.name == "file" && !row.required) continue;  // one of two ways to say numbers
+      if (row.name == "pixel_phase") continue;            // a file that would have to be there
       const auto one_of = [&](const std::vector<std::string>& group) {
         const auto at = std::find(group.begin(), group.end(), row.name);
         const std::size_t count = group.size() - (std::count(group.begin(), group.end(), "file") > 0 ? 1 : 0);

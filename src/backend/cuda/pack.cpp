@@ -107,9 +107,10 @@ void pack_phasors(Packer& packer, std::int32_t lights, const camera::PhasorView&
   to.modulation = packer.put(static_cast<const camera::ModulationView*>(modulations.data()), modulations.size());
 }
 
-/// Of each pixel, or of each pixel and modulation frequency.
-std::size_t delays_of(const pipeline::Setup& setup, std::size_t pixels) {
-  return setup.sensor.delay_stride == 0 ? pixels : pixels * count_of(setup.decoder.modulations);
+/// Delays of each pixel, or of each pixel and modulation frequency: those that the sensor has, or the decoder knows.
+template <class View>
+std::size_t delays_of(const View& has, std::int32_t modulations, std::size_t pixels) {
+  return has.delay_stride == 0 ? pixels : pixels * count_of(modulations);
 }
 
 /// @return the modulations, as the device sees them
@@ -125,7 +126,8 @@ std::vector<camera::DecodeModulation> pack_decoder(Packer& packer, const pipelin
   to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
   to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),
   to.grey_frame = packer.put(from.grey_frame, count_of(from.grey_frames));
-  to.delay = packer.put(from.delay, delays_of(setup, pixels)), to.read.cell = packer.put(from.read.cell, 2 * count_of(from.read.cells));
+  to.delay = packer.put(from.delay, delays_of(from, from.modulations, pixels)),
+  to.read.cell = packer.put(from.read.cell, 2 * count_of(from.read.cells));
   return modulations;
 }
 
@@ -178,7 +180,7 @@ std::vector<camera::DecodeModulation> pack_camera(Packer& packer, const pipeline
   pack_phasors(packer, from.scene.lights, from.phasors, to.phasors);
   pack_raw_frames(packer, from, to.sensor);
   to.sensor.gain = packer.put(from.sensor.gain, pixels), to.sensor.offset = packer.put(from.sensor.offset, pixels);
-  to.sensor.delay = packer.put(from.sensor.delay, delays_of(from, pixels));
+  to.sensor.delay = packer.put(from.sensor.delay, delays_of(from.sensor, from.decoder.modulations, pixels));
   to.sensor.read.cell = packer.put(from.sensor.read.cell, 2 * count_of(from.sensor.read.cells));
   return pack_decoder(packer, from, pixels, to.decoder);
 }
