@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Rays from anywhere through the mesh of the scene bench-mesh, one thread: those along which light goes on from what a pico flexx sees, each in a
-// direction of its own, as packs of neighbouring pixels and by Embree's rtcIntersect1 where Embree is installed, in turn.
+// direction of its own, by themselves, as packs of neighbouring pixels, and by Embree's rtcIntersect1 where Embree is installed, in turn.
 #include "num/avx2.h"
 #include "num/twin.h"
 // The number type comes first.
@@ -11,9 +11,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <random>
 #include <vector>
 
@@ -26,17 +27,24 @@ using namespace tofray;
 namespace {
 
 using F = num::Twin<num::F32x8>;
-constexpr int width = 224, height = 172, rounds = 11, lanes = num::lanes<F>;
+constexpr int width = 224, height = 172, rounds = 21, lanes = num::lanes<F>;
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+/// Of this thread's processor: others may be busy on it, too.
+double seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 struct OneRay {
   float from[3], way[3];
 };
 
-/// The ball and the floor of bench-mesh as one mesh, before a camera at zero that looks along +z.
-TriangleMesh world() {
-  TriangleMesh out = assets::bumpy_ball(6), floor = assets::wavy_floor(100);
+/// The ball and the floor of bench-mesh as one mesh of about `triangles`, before a camera at zero that looks along +z.
+TriangleMesh world(double triangles) {
+  const int cuts = std::max(0, static_cast<int>(std::lround(std::log(0.8 * triangles / 20) / std::log(4.0))));
+  const int cells = std::max(1, static_cast<int>(std::lround(std::sqrt(0.1 * triangles))));
+  TriangleMesh out = assets::bumpy_ball(cuts), floor = assets::wavy_floor(cells);
   for (auto& v : out.vertices) v[2] += 1.2f;
   const auto first = static_cast<std::int32_t>(out.vertices.size());
   for (auto& v : floor.vertices) out.vertices.push_back({v[0], v[1] + 0.5f, v[2] + 1.2f});
@@ -44,7 +52,24 @@ TriangleMesh world() {
   return out;
 }
 
-/// Distances that packs of rays find.
+/// Half of a pack goes through the mesh together.
+void search_together(const shape::MeshFree& form, const shape::MeshRay<F>& ray, shape::MeshHit<F>& hit) {
+  using H = num::F32x8;
+  const auto half = [&](auto of) {
+    shape::MeshRay<H> one;
+    for (int k = 0; k < 3; ++k) one.origin[k] = of(ray.origin[k]), one.direction[k] = of(ray.direction[k]);
+    one.slack = of(ray.slack);
+    shape::MeshHit<H> found{H(shape::never), num::I32x8(0x7fffffff), num::I32x8(-1)};
+    shape::search_together<false>(form, one, H(0.0f), H(0.0f) < H(1.0f), found);
+    return found;
+  };
+  const auto a = half([](auto twin) { return twin.a; }), b = half([](auto twin) { return twin.b; });
+  hit = {{a.t, b.t}, {a.number, b.number}, {a.triangle, b.triangle}};
+}
+
+/// Distances that rays find, which come in packs.
+/// \tparam together  as packs, else each by itself
+template <bool together>
 double search(const shape::MeshFree& form, const std::vector<OneRay>& rays, std::vector<float>& found) {
   const double before = seconds();
   for (std::size_t i = 0; i + lanes <= rays.size(); i += lanes) {
@@ -54,7 +79,14 @@ double search(const shape::MeshFree& form, const std::vector<OneRay>& rays, std:
     const auto load = [&](int k) { return num::load<F>(column[k], lanes); };
     const shape::FreeRay<F> ray{load(0), load(1), load(2), load(3), load(4), load(5)};
     num::Int<F> triangle;
-    const F t = shape::distance_to(form, ray, F(0.0f), F(shape::never), F(0.0f) < F(1.0f), triangle);
+    F t;
+    if constexpr (together) {
+      shape::MeshHit<F> hit;
+      search_together(form, shape::in_mesh(form, ray), hit);
+      t = hit.t;
+    } else {
+      t = shape::distance_to(form, ray, F(0.0f), F(shape::never), F(0.0f) < F(1.0f), triangle);
+    }
     num::store(&found[i], t, lanes);
   }
   return seconds() - before;
@@ -141,28 +173,28 @@ double median(std::vector<double> times) {
   return times[times.size() / 2];
 }
 
-}  // namespace
-
-int main() {
-  const TriangleMesh mesh = world();
+void measure(double wanted) {
+  const TriangleMesh mesh = world(wanted);
   const scene::Hierarchy built = scene::build_hierarchy(mesh);
   const shape::Mesh placed = shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}});
   const shape::MeshFree form = shape::free_of(placed);
   const std::vector<OneRay> rays = ways_on(form, built);
-  std::vector<float> own(rays.size()), other(rays.size());
-  std::vector<double> times, other_times;
+  std::vector<float> own(rays.size()), packs(rays.size()), other(rays.size());
+  std::vector<double> times, pack_times, other_times;
 #if defined(TOFRAY_HAS_EMBREE)
   const Embree peer(mesh);
 #endif
   for (int i = 0; i < rounds; ++i) {
-    times.push_back(search(form, rays, own));
+    times.push_back(search<false>(form, rays, own));
+    pack_times.push_back(search<true>(form, rays, packs));
 #if defined(TOFRAY_HAS_EMBREE)
     other_times.push_back(peer.search(rays, other));
 #endif
   }
   const auto count = static_cast<double>(rays.size());
-  fmt::print("{} triangles, {} rays from anywhere, one thread, AVX2\n", mesh.triangles.size(), rays.size());
-  fmt::print("packs of {}: {:.2f} M/s\n", lanes, count / median(times) * 1e-6);
+  fmt::print("{} triangles, {} rays from anywhere, one thread, AVX2, medians of {}\n", mesh.triangles.size(), rays.size(), rounds);
+  fmt::print("each by itself: {:.2f} M/s; packs of 8: {:.2f}, {} the same bits\n", count / median(times) * 1e-6,
+             count / median(pack_times) * 1e-6, std::memcmp(own.data(), packs.data(), 4 * own.size()) == 0 ? "all" : "NOT all");
 #if defined(TOFRAY_HAS_EMBREE)
   int met = 0, same = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -172,4 +204,14 @@ int main() {
   fmt::print("Embree's rtcIntersect1: {:.2f} M/s; ratio {:.2f}\n", count / median(other_times) * 1e-6, median(other_times) / median(times));
   fmt::print("{} meet something; {} of all meet the same\n", met, same);
 #endif
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count > 1) {
+    for (int i = 1; i < count; ++i) measure(std::atof(words[i]));
+  } else {
+    for (const double triangles : {1e5, 1.5e6}) measure(triangles);
+  }
 }

@@ -33,15 +33,6 @@ struct TileRays {
   }
 };
 
-template <class F>
-TOFRAY_FN F load_all(const float* from) {
-  return num::load<F>(from, num::lanes<F>);
-}
-template <class F>
-TOFRAY_FN void store_all(float* to, F values) {
-  num::store(to, values, num::lanes<F>);
-}
-
 /// Beams have an axis, z or −z of the mesh's frame (or another coordinate that has its place), and two planes for each of the others:
 /// x − from·z >= at and x − to·z <= until.
 struct Beam {
@@ -95,8 +86,6 @@ struct BeamBoxes {
     return (at >= V(s.at)) & (until <= V(s.until));
   }
 };
-
-TOFRAY_FN std::uint32_t first_of(int count) { return (1u << count) - 1u; }
 
 /// Children of a node that a beam meets, a bit for each.
 template <class V>

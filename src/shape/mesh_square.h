@@ -218,7 +218,7 @@ TOFRAY_FN bool make_beam(const MeshForm& form, TileRays& rays, Beam& beam, float
   return narrow;
 }
 
-/// Each ray by itself, sixteen at once.
+/// Each ray without regard to where the others go, sixteen at once. (They are neighbours, so that packs do as well as rays alone.)
 /// @param form  of one origin, or of parallel light
 template <bool any, class F, class Form>
 TOFRAY_APART void search_square_alone(const Form& form, TileRays& rays, int at) {
@@ -227,7 +227,7 @@ TOFRAY_APART void search_square_alone(const Form& form, TileRays& rays, int at) 
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
   const auto wanted = hit.t > F(0.0f);
   const F shortest = num::load_square<F>(rays.shortest + at, TileRays::row);
-  if (num::any(wanted)) search_mesh<any>(form, in_mesh(form, given), shortest, wanted, hit);
+  if (num::any(wanted)) search_together<any>(form, in_mesh(form, given), shortest, wanted, hit);
   num::store_square(rays.t + at, TileRays::row, hit.t);
   num::store_square(rays.triangle + at, TileRays::row, num::from_bits(num::to_uint(hit.triangle)));
 }

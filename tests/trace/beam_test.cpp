@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Beams of rays find what each ray finds by itself, bit by bit, with each instruction set; and so does a look at every triangle.
+// Beams of rays find what each ray finds by itself, bit by bit, with each instruction set; and so do rays alone against many boxes and triangles
+// at once, and a look at every triangle.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -147,14 +148,18 @@ int same_in_all_sets(const TileSearch& what, bool scalar_too) {
   for (int i = 0; i < TileRays::count; ++i) met += what.rays->far[i] > 0 && triangle(one, i) >= 0;
   for (const Set& set : all_sets) {
     if (&set == &yardstick || !backend::can_run(set.isa) || (set.isa == Isa::scalar && !scalar_too)) continue;
-    search(set, what, other);
-    for (int i = 0; i < TileRays::count; ++i) {
-      if (!(what.rays->far[i] > 0)) continue;
-      const bool same = what.any || what.parallel != nullptr
-                            ? (triangle(one, i) >= 0) == (triangle(other, i) >= 0)
-                            : triangle(one, i) == triangle(other, i) && std::memcmp(one.t + i, other.t + i, 4) == 0;
-      if (!same) ADD_FAILURE() << set.name << " ray " << i;
-      if (!same) return met;
+    for (const bool alone : {false, true}) {
+      TileSearch how = what;
+      how.alone = alone;
+      search(set, how, other);
+      for (int i = 0; i < TileRays::count; ++i) {
+        if (!(what.rays->far[i] > 0)) continue;
+        const bool same = what.any || what.parallel != nullptr
+                              ? (triangle(one, i) >= 0) == (triangle(other, i) >= 0)
+                              : triangle(one, i) == triangle(other, i) && std::memcmp(one.t + i, other.t + i, 4) == 0;
+        if (!same) ADD_FAILURE() << set.name << (alone ? " alone" : "") << " ray " << i;
+        if (!same) return met;
+      }
     }
   }
   return met;
@@ -196,7 +201,7 @@ TEST_P(Beams, meet_what_each_ray_meets) {
   EXPECT_GT(met, 10000) << tiles;
 }
 // The hierarchy leaves no triangle out: a look at every triangle, of up to 10,000, without any box, meets the same at the same t, bit by
-// bit, and so do a ray by itself, with and without FMA in hardware, and packs. 20,000 rays in each of 20 scenes; so many as
+// bit, and so do a ray by itself, with and without FMA in hardware, packs, and rays alone on a machine with packs. 20,000 rays in each of 20 scenes; so many as
 // TOFRAY_LONG_RAYS says where it is set (.ci/long: a million).
 TEST_P(Beams, meet_what_a_look_at_every_triangle_meets) {
   const Set* const packs = widest();
@@ -208,7 +213,7 @@ TEST_P(Beams, meet_what_a_look_at_every_triangle_meets) {
   const Placed placed(kind == 4 ? single(stone(random, 4, random.scale(1e-3, 1e3), random.point(1))) : some_mesh(random, GetParam()),
                       GetParam() % 2 == 0 ? random.rotation() : base::Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, shift, GetParam() % 3 == 1);
   ASSERT_LE(placed.built.triangles.size() * shape::block_width, 30'000U);
-  static TileRays rays, by_all, one, packed, portable;
+  static TileRays rays, by_all, one, packed, alone, portable;
   int met = 0;
   const double size = 2 * std::fmax(placed.mesh.half.x, std::fmax(placed.mesh.half.y, placed.mesh.half.z));
   for (int tile = 0; tile * TileRays::count < rays_wanted && !HasFailure(); ++tile) {
@@ -222,12 +227,13 @@ TEST_P(Beams, meet_what_a_look_at_every_triangle_meets) {
     search(*packs, {&form, nullptr, false, &rays, static_cast<int>(placed.built.triangles.size())}, by_all);
     search(yardstick, {&form, nullptr, false, &rays}, one);
     search(*packs, {&form, nullptr, false, &rays}, packed);
+    search(*packs, {&form, nullptr, false, &rays, 0, true}, alone);
     const bool slowly = tile % 40 == 0;
     if (slowly) search(all_sets[std::size(all_sets) - 1], {&form, nullptr, false, &rays}, portable);
     for (int i = 0; i < TileRays::count; ++i) {
       if (!(rays.far[i] > 0)) continue;
       met += triangle(by_all, i) >= 0;
-      for (const TileRays* other : {&one, &packed, &portable}) {
+      for (const TileRays* other : {&one, &packed, &alone, &portable}) {
         if (other == &portable && !slowly) continue;
         ASSERT_EQ(triangle(*other, i), triangle(by_all, i)) << tile << " " << i;
         ASSERT_EQ(std::memcmp(other->t + i, by_all.t + i, 4), 0) << tile << " " << i;

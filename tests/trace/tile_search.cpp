@@ -31,18 +31,32 @@ namespace {
 using namespace tofray;
 using shape::TileRays;
 
+/// As rays that have nothing in common.
 template <bool any, class F, class Form>
-void search(const Form& form, TileRays& rays) {
+void search_each(const Form& form, TileRays& rays) {
+  constexpr int n = num::lanes<F>;
+  for (int first = 0; first < TileRays::count; first += n) {
+    F given[3];
+    for (int k = 0; k < 3; ++k) given[k] = num::load<F>(rays.given[k] + first, n);
+    const F far = num::load<F>(rays.far + first, n);
+    const auto wanted = far > F(0.0f);
+    shape::MeshHit<F> hit{far, num::Int<F>(0x7fffffff), num::Int<F>(-1)};
+    if (num::any(wanted)) shape::search_mesh<any>(form, shape::in_mesh(form, given), num::load<F>(rays.shortest + first, n), wanted, hit);
+    std::int32_t triangles[num::lanes<F>];
+    num::store(rays.t + first, hit.t, n), num::store(triangles, hit.triangle, n);
+    __builtin_memcpy(rays.triangle + first, triangles, static_cast<std::size_t>(n) * sizeof *triangles);
+  }
+}
+
+template <bool any, class F, class Form>
+void search(const Form& form, TileRays& rays, bool alone) {
   if constexpr (shape::has_beams<F>) {
-    shape::search_tile<any, F>(form, rays);
-  } else {
-    for (int i = 0; i < TileRays::count; ++i) {
-      shape::MeshHit<F> hit{rays.far[i], 0x7fffffff, -1};
-      const F given[3] = {rays.given[0][i], rays.given[1][i], rays.given[2][i]};
-      if (rays.far[i] > 0) shape::search_mesh<any>(form, shape::in_mesh(form, given), rays.shortest[i], true, hit);
-      rays.t[i] = hit.t, rays.triangle[i] = num::from_bits(num::to_uint(hit.triangle));
+    if (!alone) {
+      shape::search_tile<any, F>(form, rays);
+      return;
     }
   }
+  search_each<any, F>(form, rays);
 }
 
 /// By every triangle.
@@ -91,10 +105,10 @@ extern "C" void TILE_SEARCH(const TileSearch* what) {
   if (what->all_blocks > 0) {
     look_at_all<Number>(*what->from_point, what->all_blocks, *what->rays);
   } else if (what->parallel != nullptr) {
-    search<true, Number>(*what->parallel, *what->rays);
+    search<true, Number>(*what->parallel, *what->rays, what->alone);
   } else if (what->any) {
-    search<true, Number>(*what->from_point, *what->rays);
+    search<true, Number>(*what->from_point, *what->rays, what->alone);
   } else {
-    search<false, Number>(*what->from_point, *what->rays);
+    search<false, Number>(*what->from_point, *what->rays, what->alone);
   }
 }

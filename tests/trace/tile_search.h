@@ -3,7 +3,8 @@
 #pragma once
 #include "shape/mesh_square.h"
 
-/// What a tile's rays meet of a mesh, compiled once for each instruction set: ray by ray where it has no packs, else by squares.
+/// What a tile's rays meet of a mesh, compiled once for each instruction set: ray by ray where it has no packs, else by
+/// squares, or each ray alone.
 extern "C" {
 
 /// One of the forms is null. \p any  as of MeshSquare
@@ -15,6 +16,7 @@ struct TileSearch {
   bool any;
   tofray::shape::TileRays* rays;
   int all_blocks = 0;
+  bool alone = false;  ///< as rays that have nothing in common, not by squares
 };
 using TileSearchFunction = void (*)(const TileSearch*);
 void tile_search_scalar(const TileSearch*);
