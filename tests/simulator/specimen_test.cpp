@@ -15,7 +15,7 @@ namespace {
 
 using Kind = DecoderCalibration::Kind;
 
-constexpr double light_speed = 299792458;
+constexpr double light_in_vacuum = 299792458;
 
 /// Taps whose measured phase at modulation frequency f is φ̂(f), in all of two pixels.
 template <class Phase>
@@ -68,7 +68,7 @@ TEST(specimen, is_taken_off_term_by_term) {
     for (int pixel = 0; pixel < 2; ++pixel) {
       const auto phase = [&](double f) {
         const bool sixty = f == 60e6;
-        double goal = 4 * pi * f * (range + 2e-4 * 25) / light_speed + (sixty ? 0.3 : -0.4), at = goal;
+        double goal = 4 * pi * f * (range + 2e-4 * 25) / light_in_vacuum + (sixty ? 0.3 : -0.4), at = goal;
         if (!sixty) return goal;
         goal += pixel == 0 ? 0.05 : -0.05;
         for (int turn = 0; turn < 60; ++turn) at = goal + 0.01 * std::cos(2 * at) + 0.004 * std::sin(at);
@@ -86,7 +86,7 @@ TEST(specimen, of_whom_nothing_is_known_has_no_wiggling_no_delay_and_no_pixels_t
   camera.illumination[0].waveform.harmonics = 4, camera.illumination[0].waveform.rise_time_s = 2e-9;
   camera.illumination[0].waveform.bandwidth_hz = 100e6, camera.pixel.phase_offset_rad = 0.05;
   camera.decoding.calibration.kind = Kind::none;
-  const auto at_2_m = [](double f) { return 4 * pi * f * 2 / light_speed; };
+  const auto at_2_m = [](double f) { return 4 * pi * f * 2 / light_in_vacuum; };
   for (const float range : ranges(measured(camera, at_2_m), camera)) EXPECT_NEAR(static_cast<double>(range), 2, 2e-6);
   camera.decoding.calibration.kind = Kind::exact;
   EXPECT_GT(std::abs(static_cast<double>(ranges(measured(camera, at_2_m), camera)[0]) - 2), 0.01);
