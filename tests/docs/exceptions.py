@@ -23,10 +23,9 @@ REPLACED = {
         "/usr/bin/python3 -m tofray.plot power",
         "another Python may be the first on the path than the one that the module is for",
     ),
-    "python3 -m tofray fit": (
-        "/usr/bin/python3 -m tofray fit",
-        "likewise",
-    ),
+    "python3 -m tofray.plot light": ("/usr/bin/python3 -m tofray.plot light", "likewise"),
+    "python3 -m tofray fit": ("/usr/bin/python3 -m tofray fit", "likewise"),
+    "python3 -m tofray calibrate": ("/usr/bin/python3 -m tofray calibrate", "likewise"),
     "sudo tofray bench": ("tofray bench", "a test is never root on purpose"),
 }
 
