@@ -6,12 +6,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from typing import TYPE_CHECKING, Any
 
 from ._errors import BadInput, Error
-from ._fit_command import _setting
+from ._fit_command import _finite, _setting
 
 if TYPE_CHECKING:
     from ._calibrate import SpecimenCalibration
@@ -63,10 +62,6 @@ def parser() -> argparse.ArgumentParser:
     add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; as often as you like")
     add("--json", action="store_true", help="one JSON object on stdout")
     return out
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def json_of(found: SpecimenCalibration) -> dict[str, Any]:

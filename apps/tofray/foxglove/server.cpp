@@ -8,7 +8,6 @@
 #include <chrono>
 #include <thread>
 
-#include "cli/console.h"
 #include "foxglove/reader.h"
 #include "view/listener.h"
 
@@ -25,21 +24,15 @@ std::string session_now() {
   return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
 
-std::vector<std::string> small_letters(std::vector<std::string> all) {
-  for (std::string& one : all)
-    std::transform(one.begin(), one.end(), one.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return all;
-}
-
 class SocketPublisher : public stream::Publisher {
  public:
   explicit SocketPublisher(const Settings& settings)
       : io_(1), listeners_(view::listening(io_, {"the stream", settings.host, settings.port, usual_ports})), history_(settings.history) {
     reception_->board.session = session_now();
-    reception_->admission = {view::hosts_of(port(), settings.allowed_hosts), small_letters(settings.allowed_origins), protocols};
+    reception_->admission = {view::hosts_of(port(), settings.allowed_hosts), settings.allowed_origins, protocols};
     for (const auto& one : listeners_)
       one->accept([this](view::tcp::socket&& socket) { std::make_shared<Reader>(std::move(socket), reception_)->greet(); });
-    thread_ = std::jthread([this] { run(); });
+    thread_ = std::jthread([this] { view::run_sockets(io_); });
   }
 
   /// Readers have a moment to take their leave.
@@ -112,18 +105,6 @@ class SocketPublisher : public stream::Publisher {
       readers = board().readers;
     }
     for (const auto& one : readers) one->close();
-  }
-
-  /// Handlers may throw for a lack of memory: the connection that it happened to is gone then, and no other.
-  void run() {
-    for (;;) {
-      try {
-        io_.run();
-        return;
-      } catch (const std::exception& error) {
-        app::say(fmt::format("warning: a connection is lost: {}\n", error.what()));
-      }
-    }
   }
 
   net::io_context io_;

@@ -95,6 +95,17 @@ Listeners listening(net::io_context& io, const ListenAt& place) {
                           place.who, addresses.front().to_string(), first, error.message()));
 }
 
+void run_sockets(net::io_context& io) {
+  for (;;) {
+    try {
+      io.run();
+      return;
+    } catch (const std::exception& error) {
+      app::say(fmt::format("warning: a connection is lost: {}\n", error.what()));
+    }
+  }
+}
+
 bool is_loopback(const std::string& host) { return net::ip::make_address(address_text(host)).is_loopback(); }
 
 }  // namespace tofray::view

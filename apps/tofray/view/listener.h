@@ -50,6 +50,10 @@ struct ListenAt {
 /// @throws Error (bad_input) for a host that is no address, (io) where no port can be had
 Listeners listening(net::io_context& io, const ListenAt& place);
 
+/// Runs until it is stopped or has nothing more to do. Handlers may throw for a lack of memory: the connection that it happened to is gone then,
+/// and no other.
+void run_sockets(net::io_context& io);
+
 /// @param host  as in ListenAt; one that listening() took
 bool is_loopback(const std::string& host);
 

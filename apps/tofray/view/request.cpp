@@ -165,12 +165,12 @@ Verdict judged(const Request& request, const Admission& admission, bool (*is_fil
 
 Verdict judged_reader(const Request& request, const ReaderAdmission& admission) {
   if (const Verdict wrong = malformed(request); wrong.status != 200) return wrong;
-  const auto has = [](const std::vector<std::string>& all, const std::string& one) {
-    return std::find(all.begin(), all.end(), one) != all.end();
+  const auto has = [](const std::vector<std::string>& all, std::string_view one) {
+    return std::any_of(all.begin(), all.end(), [one](const std::string& known) { return same_word(known, one); });
   };
-  if (!has(admission.hosts, lower(*value(request, "Host"))))
+  if (!has(admission.hosts, *value(request, "Host")))
     return {421, "this is not a name of the stream's; tofray stream --allow-host adds one"};
-  if (const auto origin = value(request, "Origin"); origin && !of_this_machine(lower(*origin)) && !has(admission.origins, lower(*origin)))
+  if (const auto origin = value(request, "Origin"); origin && !of_this_machine(lower(*origin)) && !has(admission.origins, *origin))
     return {403, "a page of elsewhere may not; tofray stream --allow-origin lets one in"};
   if (const Verdict wrong = handshake_verdict(request); wrong.status != 101) return wrong;
   if (chosen_protocol(request, admission.speaks).empty())

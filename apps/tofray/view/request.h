@@ -45,7 +45,7 @@ Verdict judged(const Request& request, const Admission& admission, bool (*is_fil
 /// Who may read a stream: programs, pages of this machine, and pages of the origins that are allowed.
 struct ReaderAdmission {
   std::vector<std::string> hosts;            ///< as in Admission
-  std::vector<std::string> origins;          ///< what Origin may say, in small letters: "https://app.example.org"
+  std::vector<std::string> origins;          ///< what Origin may say: "https://app.example.org"
   std::span<const std::string_view> speaks;  ///< subprotocols, the preferred one first
 };
 

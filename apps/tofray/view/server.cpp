@@ -156,18 +156,6 @@ void welcome(const std::shared_ptr<Hub>& hub, tcp::socket&& socket) {
     connection->read();
 }
 
-/// Handlers may throw for a lack of memory: the connection that it happened to is gone then, and no other.
-void run(net::io_context& io) {
-  for (;;) {
-    try {
-      io.run();
-      return;
-    } catch (const std::exception& error) {
-      app::say(fmt::format("warning: a connection is lost: {}\n", error.what()));
-    }
-  }
-}
-
 }  // namespace
 
 void serve(const ServerOptions& options, Session& session, const std::function<void(const Address&)>& told) {
@@ -203,7 +191,7 @@ void serve(const ServerOptions& options, Session& session, const std::function<v
   const std::string name =
       options.allowed_hosts.empty() || local ? fmt::format("127.0.0.1:{}", port) : hosts_of(port, {options.allowed_hosts.front()}).back();
   told({fmt::format("http://{}/#t={}", name, token), port, !local});
-  run(io);
+  run_sockets(io);
   session.stop();
   if (!session.ended(std::chrono::milliseconds(500))) std::_Exit(0);  // it reads a large file: nothing is lost
 }
