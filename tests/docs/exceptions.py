@@ -52,7 +52,8 @@ CUDA_LAUNCH = (r"<<<.*?>>>", "")
 FEW_FRAMES = "--frames 2"
 
 # A viewer serves until somebody ends it: Ctrl-C after some seconds, which is a good end. One without its page says so (exit code 5).
-VIEW = "{{ timeout --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
+# (--foreground: timeout sends one signal, and not a second one to its group.)
+VIEW = "{{ timeout --foreground --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
 VIEW_EXPORT = "{{ {} || [[ $? == 5 ]]; }}"   # ends by itself
 
 # The same of a stream, in a build that speaks no DDS.

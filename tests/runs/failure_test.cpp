@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "files/json.h"
 #include "files/npz.h"
-#include "files/sha256.h"
 #include "support/sanitizers.h"
+#include "support/temporaries.h"
 #include "support/tool.h"
 
 namespace tofray::test {
 namespace {
-
-/// Names that a run which did not finish may not leave behind.
-std::vector<std::string> temporaries(const fs::path& folder) {
-  std::vector<std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (has(entry.path().filename().native(), ".tmp")) found.push_back(entry.path().native());
-  }
-  return found;
-}
 
 Prepare stdout_to(const char* path) {
   return [path] { ::dup2(::open(path, O_WRONLY), 1); };
@@ -311,79 +301,6 @@ TEST(memory, is_not_asked_for_where_counts_are_beyond_their_limits) {
   }
 }
 
-// 50 of each signal; programs with sanitizers start slowly.
-constexpr int interruptions = with_sanitizers ? 10 : 50;
-
-/// An interrupted run's manifest lists what lies there, says so, and stderr says how to go on.
-void expect_complete(const Folder& folder, const std::map<std::string, std::string>& files) {
-  const files::Json manifest = files::parse_json(content(folder / "out" / "manifest.json"), "manifest.json");
-  std::map<std::string, std::string> hashes, listed;
-  for (const auto& [name, bytes] : files) hashes[name] = files::sha256_hex(bytes);
-  for (const files::Json& file : *manifest.find("files")->items()) listed[*file.find("name")->string()] = *file.find("sha256")->string();
-  EXPECT_EQ(hashes, listed);
-  ASSERT_NE(manifest.find("interrupted_after_frames"), nullptr);
-  std::uint64_t complete = 0;
-  EXPECT_TRUE(manifest.find("interrupted_after_frames")->unsigned_integer(complete));
-  EXPECT_EQ(complete, files.size());
-  EXPECT_TRUE(has(content(folder / "stderr"), "--first-frame " + std::to_string(files.size()) + " ")) << content(folder / "stderr");
-}
-
-/// Starts a long run, waits until it has written a frame, and then ends it by a signal, a little later each time.
-/// @param at_once  whether the run ends without finishing its frame and without a word
-void interrupt(int signal, int expected, bool at_once) {
-  for (int round = 0; round < interruptions; ++round) {
-    const Folder folder;
-    Running child(start(with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "2000"}), folder / "stdout", folder / "stderr",
-                        in_folder(folder.path())));
-    const fs::path second = folder / "out" / "frame_0001.npz";
-    for (int i = 0; i < 10'000 && !fs::exists(second); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ASSERT_TRUE(fs::exists(second)) << content(folder / "stderr");
-    std::this_thread::sleep_for(std::chrono::microseconds(137 * (round % 20)));
-    child.send(signal);
-    EXPECT_EQ(child.finish(), expected);
-    EXPECT_EQ(temporaries(folder.path()), std::vector<std::string>());
-    const auto files = files_of(folder / "out");
-    for (const auto& [name, bytes] : files) EXPECT_NO_THROW(files::read_npz(folder / "out" / name)) << name;
-    ASSERT_EQ(fs::exists(folder / "out" / "manifest.json"), !at_once);
-    if (!at_once) expect_complete(folder, files);
-  }
-}
-
-TEST(interrupted, run_goes_on_as_it_says_and_leaves_what_an_undisturbed_one_leaves) {
-  const Folder folder;
-  const Prepare here = in_folder(folder.path());
-  const Arguments whole = with_small_sensor({"render", "flying-ball", "--frames", "100", "--first-frame", "2"});
-  const auto into = [&](const char* name, const Arguments& more) {
-    Arguments all = whole;
-    all.insert(all.end(), {"-o", name});
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  };
-  Running child(start(into("out", {}), folder / "stdout", folder / "stderr", here));
-  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0003.npz"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  child.send(SIGINT);
-  ASSERT_EQ(child.finish(), 130);
-  const std::string said = content(folder / "stderr");
-  const std::size_t first = said.find("--first-frame "), count = said.find("--frames ");
-  ASSERT_TRUE(first != std::string::npos && count != std::string::npos) << said;
-  const auto number_at = [&](std::size_t at) { return std::to_string(std::stoi(said.substr(at))); };
-  ASSERT_EQ(run(into("out", {"--first-frame", number_at(first + 14), "--frames", number_at(count + 9)}), here).code, 0);
-  ASSERT_EQ(run(into("whole", {}), here).code, 0);
-  EXPECT_EQ(files_of(folder / "out"), files_of(folder / "whole"));
-}
-
-// Before main(), and before any library is initialised.
-TEST(interrupted, politely_before_it_began_ends_with_143) {
-  if (with_sanitizers) GTEST_SKIP() << "a sanitizer has to be first itself";
-  const Folder folder;
-  const Result result = run({"render", "card"}, [&] {
-    in_folder(folder.path())();
-    ::setenv("LD_PRELOAD", TOFRAY_SIGNAL_EARLY, 1);
-  });
-  EXPECT_EQ(result.code, 143);
-}
-
 // Two at once into one folder would leave a manifest that is not that of the files. Who is killed leaves no lock.
 TEST(two_runs, into_one_folder_are_not_let_in_at_once) {
   const Folder folder;
@@ -405,43 +322,6 @@ TEST(two_runs, into_one_folder_are_not_let_in_at_once) {
   first.send(SIGKILL);
   EXPECT_EQ(first.finish(), 1000 + SIGKILL);
   EXPECT_EQ(run(with_small_sensor({"render", "card", "-o", "out"}), here).code, 0);
-}
-
-TEST(interrupted, by_ctrl_c_ends_with_130_and_whole_files) { interrupt(SIGINT, 130, false); }
-TEST(interrupted, politely_ends_with_143_and_whole_files) { interrupt(SIGTERM, 143, false); }
-TEST(interrupted, by_hang_up_ends_with_129_and_whole_files) { interrupt(SIGHUP, 129, false); }
-TEST(interrupted, by_a_reader_that_went_away_ends_with_141_and_whole_files) {
-#if defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "ThreadSanitizer takes SIGPIPE for a fault of the code under it and runs the handler within its own locks";
-#endif
-  interrupt(SIGPIPE, 141, true);
-}
-
-TEST(interrupted, output_to_a_closed_pipe_says_nothing) {
-  for (int round = 0; round < interruptions; ++round) {
-    const Result result = run({"schema", "scene"}, [] {
-      int ends[2];
-      if (::pipe(ends) != 0) ::_exit(126);
-      ::close(ends[0]);
-      ::dup2(ends[1], 1);
-    });
-    EXPECT_EQ(result.code, 141);
-    EXPECT_EQ(result.err, "");
-  }
-}
-
-TEST(interrupted, nohup_is_respected) {
-  const Folder folder;
-  const auto ignoring = [&] {
-    in_folder(folder.path())();
-    ::signal(SIGHUP, SIG_IGN);
-  };
-  const Arguments arguments = with_small_sensor({"render", "flying-ball", "-o", "out", "--frames", "40"});
-  Running child(start(arguments, folder / "stdout", folder / "stderr", ignoring));
-  for (int i = 0; i < 10'000 && !fs::exists(folder / "out" / "frame_0001.npz"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  child.send(SIGHUP);
-  EXPECT_EQ(child.finish(), 0) << content(folder / "stderr");
 }
 
 }  // namespace

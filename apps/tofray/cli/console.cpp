@@ -11,7 +11,9 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <system_error>
 
@@ -39,13 +41,28 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 std::atomic<bool> noting{false};  ///< a StopRequest lives
 std::atomic<int> noted{0};
+std::atomic<std::int64_t> noted_at_ns{0};
 std::atomic<std::atomic<bool>*> to_stop{nullptr};  ///< of that StopRequest
 static_assert(std::atomic<std::atomic<bool>*>::is_always_lock_free);
-static_assert(std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t now_ns() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
+
+/// Whether this signal is the noted one once more: timeout(1), npm and others send it to the program and to its group. Nobody presses Ctrl-C
+/// twice in half a second and means two things.
+bool is_the_noted_one(int signal) {
+  constexpr std::int64_t together_ns = 500'000'000;
+  return noted == signal && now_ns() - noted_at_ns < together_ns;
+}
 
 // Only async-signal-safe calls.
 extern "C" void end_on_signal(int signal) {
   int none = 0;
+  if (noted == none) noted_at_ns = now_ns();  // first: another thread may get the next one now
   if (noting && signal != SIGPIPE && noted.compare_exchange_strong(none, signal)) {
     const int error = errno;  // of a call that the signal came into
     *to_stop.load() = true;
@@ -53,6 +70,7 @@ extern "C" void end_on_signal(int signal) {
     errno = error;
     return;
   }
+  if (noting && is_the_noted_one(signal)) return;
   // Another thread is at it already.
   if (ending.exchange(true)) {
     for (;;) ::pause();

@@ -47,7 +47,7 @@ void yield_to_signal();
 void end_cleanly_on_signals();
 
 /// While one lives, the first Ctrl-C, hang-up or polite end is only noted: a run of many frames stops where its files are whole and says
-/// what it did. The next signal ends the process at once.
+/// what it did. The next signal ends the process at once, but for the same one within half a second.
 class StopRequest {
  public:
   /// @param stop  set by the signal: gives up what takes long

@@ -212,8 +212,8 @@ int run_stream(const Options& options) {
   Outlets outlets(*carrier.publisher, options.stream.sensor_qos);
   for (const auto& camera : cameras) camera->offer(outlets);
   const Talk talk(options.quiet);
-  talk(beginning_text(outlets, carrier, options));
   const StopRequest stop(&now.stop);
+  talk(beginning_text(outlets, carrier, options));
   const Course course = stream_all(cameras, *carrier.publisher, options, now.stop);
   tell_losses(course, outlets, remarks);
   const bool interrupted = stop.signal() != 0 && bounded;
