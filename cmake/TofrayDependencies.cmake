@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12: libtbb-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev libjpeg-dev libcairo2-dev zlib1g-dev libzstd-dev libzip-dev libssl-dev pkg-config
+# Debian 12: libtbb-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libfmt-dev libpng-dev libjpeg-dev libcairo2-dev zlib1g-dev libdeflate-dev libzstd-dev libzip-dev libssl-dev pkg-config
 find_package(Threads REQUIRED)
 if(TOFRAY_THREADS STREQUAL "tbb")
   find_package(TBB REQUIRED)
@@ -15,6 +15,7 @@ find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 # MCAP files have their chunks packed by it; without it they are written as they are.
 set(TOFRAY_ZSTD AUTO CACHE STRING "AUTO, ON or OFF: libzstd, which packs the chunks of MCAP files")

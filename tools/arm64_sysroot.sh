@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 root=$(realpath -m "${1:-build/arm64-sysroot}")
 packages=(libc6-dev libstdc++-12-dev libtbb-dev libyaml-cpp-dev nlohmann-json3-dev libboost1.74-dev libcli11-dev libfmt-dev libpng-dev libjpeg-dev
-  libcairo2-dev zlib1g-dev libzstd-dev libzip-dev libssl-dev libgtest-dev)
+  libcairo2-dev zlib1g-dev libdeflate-dev libzstd-dev libzip-dev libssl-dev libgtest-dev)
 [[ "$(cat "$root/complete" 2>/dev/null)" != "${packages[*]}" ]] || exit 0
 
 mkdir -p "$root"

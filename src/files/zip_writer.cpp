@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files/zip_writer.h"
 
-#include <zlib.h>
-
-#include <new>
-
-#include "tofray/error.h"
+#include "files/crc32.h"
+#include "files/deflate.h"
 
 namespace tofray::files {
 namespace {
@@ -15,7 +12,7 @@ constexpr std::uint32_t elsewhere = 0xffffffff;  ///< in place of a number that 
 constexpr std::uint16_t first_of_january_1980 = 1 << 5 | 1, made_on_unix = 3 << 8 | 63, regular_file = 0100666;
 constexpr std::uint32_t header_signature = 0x04034b50, directory_signature = 0x02014b50, end_signature = 0x06054b50;
 constexpr std::uint32_t end64_signature = 0x06064b50, locator64_signature = 0x07064b50;
-constexpr std::uint16_t extra64 = 1, version64 = 45;
+constexpr std::uint16_t extra64 = 1, version64 = 45, deflate_method = 8;
 
 /// Numbers of a zip: little endian, one after the other.
 class Numbers {
@@ -33,48 +30,7 @@ class Numbers {
   std::string& to_;
 };
 
-std::uint16_t version_of(std::uint16_t method, bool large) { return large ? version64 : method == Z_DEFLATED ? 20 : 10; }
-
-const Bytef* bytes_of(std::string_view text) { return reinterpret_cast<const Bytef*>(text.data()); }
-
-std::uint32_t crc_of(std::string_view head, std::string_view body) {
-  auto crc = crc32_z(0, bytes_of(head), head.size());
-  if (!body.empty()) crc = crc32_z(crc, bytes_of(body), body.size());  // of no bytes nowhere zlib begins anew
-  return static_cast<std::uint32_t>(crc);
-}
-
-/// zlib's stream, ended whatever happens.
-struct Deflate {
-  z_stream stream{};
-  Deflate() {
-    // Level 6 as numpy does; negative window bits: no header of zlib's own.
-    if (deflateInit2(&stream, 6, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
-  }
-  Deflate(const Deflate&) = delete;
-  Deflate& operator=(const Deflate&) = delete;
-  ~Deflate() { deflateEnd(&stream); }
-};
-
-/// Appends the two pieces as one deflated stream.
-void append_deflated(std::string& file, std::string_view head, std::string_view body) {
-  Deflate packer;
-  z_stream& z = packer.stream;
-  char out[1 << 16];
-  for (const bool last : {false, true}) {
-    std::string_view left = last ? body : head;
-    do {
-      const std::string_view now = left.substr(0, std::size_t{1} << 30);  // zlib counts in 32 bits
-      left.remove_prefix(now.size());
-      z.next_in = const_cast<Bytef*>(bytes_of(now)), z.avail_in = static_cast<uInt>(now.size());
-      do {
-        z.next_out = reinterpret_cast<Bytef*>(out), z.avail_out = sizeof out;
-        if (deflate(&z, last && left.empty() ? Z_FINISH : Z_NO_FLUSH) == Z_STREAM_ERROR)
-          throw Error(ErrorKind::bug, "error: zlib cannot deflate");
-        file.append(out, sizeof out - z.avail_out);
-      } while (z.avail_out == 0);
-    } while (!left.empty());
-  }
-}
+std::uint16_t version_of(std::uint16_t method, bool large) { return large ? version64 : method == deflate_method ? 20 : 10; }
 
 }  // namespace
 
@@ -86,12 +42,12 @@ ZipWriter::ZipWriter(std::string& file, Packing packing, std::uint64_t limit) : 
 bool ZipWriter::is_large(const Entry& entry) const { return entry.unpacked >= limit_ - limit_ / 1000; }
 
 void ZipWriter::add(std::string_view name, std::string_view head, std::string_view body) {
-  Entry entry{std::string(name), crc_of(head, body), 0, head.size() + body.size(), head.size() + body.size(), file_.size()};
+  Entry entry{std::string(name), crc32(body, crc32(head)), 0, head.size() + body.size(), head.size() + body.size(), file_.size()};
   if (packing_ == Packing::stored) {
     put_header(entry);
     file_.append(head).append(body);
   } else {
-    entry.method = Z_DEFLATED;
+    entry.method = deflate_method;
     const std::size_t before = file_.size();
     put_header(entry);
     const std::size_t start = file_.size();

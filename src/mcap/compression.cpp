@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mcap/compression.h"
 
-#include <zlib.h>
 #ifdef TOFRAY_HAS_ZSTD
 #include <zstd.h>
 #endif
@@ -12,11 +11,6 @@
 #include "tofray/error.h"
 
 namespace tofray::mcap {
-
-std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
-  if (bytes.empty()) return before;  // of no bytes nowhere zlib begins anew
-  return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 #ifdef TOFRAY_HAS_ZSTD
 

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 
-/// Chunks as zstd packs them, and sums by which damage shows.
+/// Chunks as zstd packs them.
 namespace tofray::mcap {
 
 /// Whether this build has zstd.
@@ -30,8 +29,5 @@ class Packer {
 
 /// What `packed` holds. @return false where it is not zstd's, or not so many bytes. Only where has_zstd().
 bool unpack(std::string_view packed, std::size_t size, std::string& to);
-
-/// CRC-32 as MCAP has it (that of zip and PNG). @param before  of what stands before these bytes
-std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace tofray::mcap

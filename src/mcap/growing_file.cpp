@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "base/text.h"
-#include "mcap/compression.h"
+#include "files/crc32.h"
 #include "tofray/error.h"
 
 namespace tofray::mcap {
@@ -57,7 +57,7 @@ void GrowingFile::fail(const char* what, int code) const {
 
 void GrowingFile::write(std::string_view bytes) {
   sum_.add(bytes);
-  crc_ = crc32(bytes, crc_);
+  crc_ = files::crc32(bytes, crc_);
   size_ += bytes.size();
   while (!bytes.empty()) {
     const ssize_t written = calls_.write(file_->number(), bytes.data(), bytes.size());

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "files/crc32.h"
 #include "files/descriptor.h"
 #include "mcap/compression.h"
 #include "tofray/error.h"
@@ -60,7 +61,7 @@ class Reader {
     if (file_.size() < magic.size() || file_.read(0, magic.size()) != magic)
       throw Error(ErrorKind::bad_input, where_ + ": error: this is no MCAP file\n  expected one that begins with \\x89MCAP0");
     out_.bytes = magic.size();
-    crc_ = crc32(magic);
+    crc_ = files::crc32(magic);
     while (next_record()) {}
     return std::move(out_);
   }
@@ -92,7 +93,7 @@ class Reader {
                   fmt::format("{}: error: the record at byte {} has {} bytes, more than {}", where_, at, size, max_record_bytes));
     const std::string_view whole = file_.read(at, record_head + size), record = whole.substr(record_head);
     if (opcode == Opcode::data_end) return end_data(at, record), false;
-    crc_ = crc32(whole, crc_);
+    crc_ = files::crc32(whole, crc_);
     Take from(record);
     switch (opcode) {
       case Opcode::header: out_.profile = from.text(), out_.library = from.text(); break;
@@ -140,7 +141,7 @@ class Reader {
       throw Error(ErrorKind::limit,
                   fmt::format("{}: error: the chunk at byte {} unpacks to {} bytes, more than {}", where_, at, size, max_chunk_bytes));
     const std::string_view records = unpacked(packed, size, compression, at);
-    check_sum("the chunk", at, crc32(records), said);
+    check_sum("the chunk", at, files::crc32(records), said);
     ++out_.chunks, ++out_.compressions[compression];
     out_.unpacked_bytes += size, out_.packed_bytes += packed.size();
     Take inner(records);
@@ -173,7 +174,7 @@ class Reader {
     const std::string_view name = from.text(), media_type = from.text(), data = from.raw(from.u64());
     const std::uint32_t said = from.u32();
     if (!from.good()) damaged("the attachment", at, "it is shorter than what it says of itself");
-    check_sum("the attachment", at, crc32(record.substr(0, record.size() - from.rest().size() - 4)), said);
+    check_sum("the attachment", at, files::crc32(record.substr(0, record.size() - from.rest().size() - 4)), said);
     if (reading_.attachment) reading_.attachment(name, media_type, data);
   }
 
@@ -196,7 +197,7 @@ class Reader {
     Take foot(end.substr(0, footer));
     if (static_cast<Opcode>(foot.number<std::uint8_t>()) != Opcode::footer || foot.u64() != 20) return;
     foot.u64(), foot.u64();
-    check_sum("the summary", start, crc32(rest.substr(0, size - magic.size() - 4)), foot.u32());
+    check_sum("the summary", start, files::crc32(rest.substr(0, size - magic.size() - 4)), foot.u32());
     out_.complete = true;
     out_.bytes = file_.size();
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "files/crc32.h"
+
 namespace tofray::mcap {
 
 Writer::Writer(GrowingFile& file, WriterOptions options) : file_(file), options_(std::move(options)) {
@@ -44,7 +46,7 @@ void Writer::attach(std::string_view name, std::string_view media_type, std::str
   Put put(record);
   const std::size_t at = put.begin(Opcode::attachment);
   put.u64(0).u64(0).text(name).text(media_type).u64(data.size()).raw(data);
-  put.u32(crc32(std::string_view(record).substr(at)));
+  put.u32(files::crc32(std::string_view(record).substr(at)));
   put.end(at);
   Put index(attachment_indexes_);
   const std::size_t entry = index.begin(Opcode::attachment_index);
@@ -88,7 +90,7 @@ void Writer::end_chunk() {
   out_.clear();
   Put put(out_);
   const std::size_t at = put.begin(Opcode::chunk);
-  put.u64(chunk_start_).u64(chunk_end_).u64(chunk_.size()).u32(crc32(chunk_)).text(compression);
+  put.u64(chunk_start_).u64(chunk_end_).u64(chunk_.size()).u32(files::crc32(chunk_)).text(compression);
   put.u64(0);  // how many bytes, known in a moment
   const std::size_t records = out_.size();
   if (options_.zstd)
@@ -158,7 +160,7 @@ void Writer::finish() {
 
   out_ += static_cast<char>(Opcode::footer);
   put.u64(8 + 8 + 4).u64(summary).u64(offsets_start);
-  put.u32(crc32(std::string_view(out_).substr(summary_at)));
+  put.u32(files::crc32(std::string_view(out_).substr(summary_at)));
   out_ += magic;
   file_.write(out_);
 }

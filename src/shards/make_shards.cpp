@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "base/in_order.h"
 #include "base/text.h"
 #include "base/version.h"
+#include "files/crc32.h"
 #include "files/streamed_file.h"
 #include "files/tar.h"
 #include "shards/canary.h"
@@ -103,8 +103,7 @@ class ShardMaker {
       const std::string key = sample_key(number, view.view, plan_.views);
       for (const MadeSample::Member& member : view.members) {
         tar.append(files::tar_header(key + "." + member.name, member.bytes.size()));
-        const auto crc = crc32_z(0, reinterpret_cast<const Bytef*>(member.bytes.data()), member.bytes.size());
-        into.members.push_back({member.name, tar.size(), member.bytes.size(), static_cast<std::uint32_t>(crc)});
+        into.members.push_back({member.name, tar.size(), member.bytes.size(), files::crc32(member.bytes)});
         tar.append(member.bytes);
         tar.append(std::string(files::tar_padding(member.bytes.size()), '\0'));
       }

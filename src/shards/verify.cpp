@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "base/in_order.h"
 #include "dataset/draw.h"
+#include "files/crc32.h"
 #include "files/sha256.h"
 #include "shards/layout.h"
 #include "shards/record.h"
@@ -35,8 +35,7 @@ std::vector<std::string> damaged_members(const Plan& plan, const Record& record,
   for (const Record::Sample& sample : record.samples)
     for (const Record::Member& member : sample.members) {
       const std::string bytes = tar.read(member);
-      if (bytes.size() != member.bytes || crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()) != member.crc)
-        out.push_back(member_name(plan, sample, member));
+      if (bytes.size() != member.bytes || files::crc32(bytes) != member.crc) out.push_back(member_name(plan, sample, member));
     }
   return out;
 }

@@ -3,15 +3,14 @@
 #include "view/export.h"
 
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <new>
 #include <optional>
 #include <utility>
 
 #include "base/base64.h"
 #include "cli/requests.h"
+#include "files/deflate.h"
 #include "results/array_table.h"
 #include "tofray/error.h"
 #include "view/answer_arrays.h"
@@ -29,16 +28,6 @@ using files::Json;
 constexpr std::string_view place_of_data = "<!--tofray-data-->";
 constexpr std::size_t most_page_bytes = 200'000'000, most_saved_text = 900'000;
 
-/// A zlib stream, as pages unpack it.
-std::string deflated(std::string_view bytes) {
-  uLong size = compressBound(bytes.size());
-  std::string out(size, '\0');
-  const int result = compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (result != Z_OK) throw std::bad_alloc();
-  out.resize(size);
-  return out;
-}
-
 /// JSON within an element of HTML: no character ends it.
 std::string within_html(const std::string& json) {
   std::string out;
@@ -48,7 +37,7 @@ std::string within_html(const std::string& json) {
 }
 
 std::string block(const char* attributes, std::string_view bytes) {
-  return fmt::format("<script type=\"application/octet-stream\" {}>{}</script>\n", attributes, base::base64(deflated(bytes)));
+  return fmt::format("<script type=\"application/octet-stream\" {}>{}</script>\n", attributes, base::base64(files::zlib_stream(bytes)));
 }
 
 const Asset& page() {

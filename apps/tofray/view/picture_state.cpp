@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/picture_state.h"
 
-#include <zlib.h>
-
+#include "files/crc32.h"
 #include "tofray/error.h"
 #include "view/fields.h"
 
@@ -89,7 +88,7 @@ std::string png_with_text(std::string_view png, std::string_view keyword, std::s
   std::string out(png.substr(0, png.size() - end_bytes));
   put_big_endian(out, chunk.size() - 4);
   out += chunk;
-  put_big_endian(out, crc32_z(0, reinterpret_cast<const unsigned char*>(chunk.data()), chunk.size()));
+  put_big_endian(out, files::crc32(chunk));
   return out.append(png.substr(png.size() - end_bytes));
 }
 
