@@ -36,8 +36,10 @@ struct DatasetPlan {
   /// What plan_dataset() found in the folder.
   enum class Found { nothing, same, fewer_samples } found = Found::nothing;
   // of the pilot; 0 where the same plan was there
-  double sample_seconds = 0;            ///< of one core, mean
-  std::uint64_t pixels = 0, valid = 0;  ///< of all its frames, and those with depth
+  double sample_seconds = 0;               ///< of one core, mean
+  std::uint64_t pixels = 0, valid = 0;     ///< of all its frames, and those with depth
+  std::uint64_t pilot = 0;                 ///< samples that it has
+  double least_valid = 1, most_valid = 0;  ///< shares of one view's pixels
 };
 
 /// Looks at the set, computes a pilot and writes plan.json. Where there is a plan already: the same one is left as it is, one with fewer samples is extended (shards

@@ -36,11 +36,23 @@ def _mixed(numbers: NDArray[np.uint64], key: int) -> NDArray[np.uint64]:
     return mixed
 
 
+def _codes(values: NDArray[np.floating[Any]], as_: dict[str, Any]) -> NDArray[Any]:
+    """Whole numbers as a shard stores them: the nearest to value / step, of two as near the even one."""
+    return np.where(np.isnan(values), as_["no_value"], np.rint(values.astype(np.float64) / as_["step"])).astype(as_["dtype"])
+
+
+def _values(codes: NDArray[Any], as_: dict[str, Any]) -> NDArray[np.float32]:
+    """What they stand for, with NaN."""
+    values: NDArray[np.float32] = np.where(codes == as_["no_value"], np.nan, codes * as_["step"]).astype(np.float32)
+    return values
+
+
 class Samples:
     """Samples of a data set by number: ``samples[i]`` is a dict of arrays, and ``"json"``, what the shard says of them.
 
     Made by ``open_dataset``. A sample with several views has as many rows, one after the other: row = sample * views + view. Stored arrays are views of the
-    shard's bytes in memory's map: nothing is copied until they are worked with.
+    shard's bytes in memory's map: nothing is copied until they are worked with. Those that the set stores ``as`` whole numbers come as what these stand for,
+    float32 with NaN.
 
     Parameters
     ----------
@@ -68,6 +80,7 @@ class Samples:
             self._plan: dict[str, Any] = json.loads((self._folder / "plan.json").read_text(encoding="utf-8"))
         except OSError as error:
             raise IoError(f"{self._folder}: error: there is no plan in this folder\n  expected the folder of a `tofray dataset plan SET.yaml -o FOLDER`") from error
+        self._as: dict[str, dict[str, Any]] = self._plan.get("as", {})
         merged = (self._folder / "SHA256SUMS").exists()
         if computed is False and not merged:
             raise BadInput(f"{self._folder}: error: its shards are not merged\n  expected `tofray dataset merge {self._folder}` before")
@@ -138,6 +151,8 @@ class Samples:
         frame = self._set.frame(sample, view, arrays=self.arrays, threads=1)
         of_frame = frame.to_dict()
         arrays: dict[str, Any] = {name: of_frame[name] for name in self.arrays}
+        for name, as_ in self._as.items():
+            arrays[name] = _values(_codes(arrays[name], as_), as_)
         arrays["json"] = {"sample": sample, "view": view, "split": self._set.split(sample), "set": self._set.name, "seed": self._set.noise_seed(sample, view),
                           "scene": self._set.scene_yaml(sample, view)}
         return arrays
@@ -164,7 +179,8 @@ class Samples:
             npy: Any = np.lib.format
             assert npy.read_magic(header) == (1, 0)
             shape, _, dtype = npy.read_array_header_1_0(header)
-            out[name.removesuffix(".npy")] = member[header.tell():].view(dtype).reshape(shape)
+            array, name = member[header.tell():].view(dtype).reshape(shape), name.removesuffix(".npy")
+            out[name] = _values(array, self._as[name]) if name in self._as else array
         return out
 
     def order(self, seed: int = 0, epoch: int = 0) -> NDArray[np.int64]:

@@ -67,6 +67,7 @@ const model::FileForm& set_form() {
           absent("devices", model::integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
           absent("let", model::Form{}, "numbers by name, for expressions"),
           absent("arrays", model::list(model::text("the name of an array, or a pattern", "gt_*"), 1, 64), "what is stored of each sample"),
+          absent("as", quantised_form(), "arrays of floats that are stored as whole numbers"),
           absent("accept", model::list(rule_form(), 1, 16), "what a sample has to show, or it is drawn again"),
           absent("attempts", model::integer({1, most_attempts}, "50"), "how often a sample is drawn until accept takes it"),
           absent("holes", model::number(base::Dimension::fraction, {0, 1}, "0.1 %"), "the share of samples that may fail"),
@@ -93,8 +94,8 @@ SetFile parse_set(std::string_view text, const std::string& source) {
     if (value[key] && value[key].good) into = static_cast<std::uint64_t>(value[key].number);
   };
   whole("samples", out.samples), whole("seed", out.seed), whole("views", out.views), whole("devices", out.devices);
-  if (value["arrays"])
-    for (const yaml::Value& one : value["arrays"].items) out.arrays.push_back(one.text);
+  if (value["arrays"]) out.arrays = stored_arrays(value["arrays"], faults);
+  if (value["as"] && faults.empty()) out.as = quantised_arrays(value["as"], choice_of(out.arrays), faults);
   whole("attempts", out.attempts);
   if (value["accept"])
     for (const yaml::Value& one : value["accept"].items) {

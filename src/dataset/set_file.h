@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/stored.h"
 #include "model/form.h"
 #include "yaml/tree.h"
 
@@ -33,7 +34,8 @@ struct SetFile {
   std::string name, license;
   std::uint64_t samples = 0, seed = 0, views = 1, devices = 1;
   std::vector<std::string> arrays;  ///< names and patterns of what is stored; empty: the usual ones
-  double holes = 0;                 ///< the share of samples that may fail
+  std::vector<Quantised> as;
+  double holes = 0;  ///< the share of samples that may fail
   SplitShares split;
   std::vector<AcceptRule> accept;
   std::uint64_t attempts = 50;  ///< at a sample that these take

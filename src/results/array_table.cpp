@@ -86,19 +86,26 @@ const ArrayRow* find_array(std::string_view name) {
   return nullptr;
 }
 
-ArrayChoice::ArrayChoice(const std::string& words) : all_(false) {
+std::string why_no_array(const std::string& word) {
   std::vector<std::string> known;
-  for (const ArrayRow& row : array_table()) known.push_back(row.name);
+  for (const ArrayRow& row : array_table()) {
+    if (fits(row.name, word)) return {};
+    known.push_back(row.name);
+  }
+  return fmt::format("there is no array {}{}", base::in_quotes(word), base::did_you_mean(word, known));
+}
+
+ArrayChoice::ArrayChoice(const std::string& words) : all_(false) {
   for (std::size_t from = 0; from <= words.size();) {
     const std::size_t end = std::min(words.find(',', from), words.size());
     const std::string word = words.substr(from, end - from);
     const std::size_t before = names_.size();
-    std::copy_if(known.begin(), known.end(), std::back_inserter(names_), [&](const std::string& name) { return fits(name, word); });
+    for (const ArrayRow& row : array_table())
+      if (fits(row.name, word)) names_.push_back(row.name);
     if (names_.size() == before)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("error: there is no array {}{}\n  expected names or patterns between commas, as in raw,z_m,gt_*; "
-                              "`tofray list arrays` has them all",
-                              base::in_quotes(word), base::did_you_mean(word, known)));
+      throw Error(ErrorKind::bad_input, fmt::format("error: {}\n  expected names or patterns between commas, as in raw,z_m,gt_*; "
+                                                    "`tofray list arrays` has them all",
+                                                    why_no_array(word)));
     if (names_.size() == before + 1 && names_.back() == word) named_.push_back(word);
     from = end + 1;
   }

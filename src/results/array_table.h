@@ -28,6 +28,9 @@ const std::vector<ArrayRow>& array_table();
 /// The row of that name, or none.
 const ArrayRow* find_array(std::string_view name);
 
+/// "there is no array raww; did you mean raw?"; empty where a name or a pattern fits one.
+std::string why_no_array(const std::string& word);
+
 /// docs/reference/arrays.md.
 std::string array_reference();
 

@@ -6,6 +6,7 @@
 
 #include "base/version.h"
 #include "results/array_table.h"
+#include "shards/quantised.h"
 #include "shards/summary.h"
 
 namespace tofray::shards {
@@ -38,8 +39,8 @@ std::string array_rows(const Summary& of) {
   for (const std::string& name : of.plan.arrays) {
     const results::ArrayRow& row = *results::find_array(name);
     const Json* const one = arrays != nullptr ? arrays->find(name) : nullptr;
-    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, row.type.name(), one != nullptr ? shape_text(*one->find("shape")) : "",
-                       row.unit, row.what);
+    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, stored_type(of.set, row),
+                       one != nullptr ? shape_text(*one->find("shape")) : "", row.unit, row.what);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "results/array_table.h"
+#include "shards/quantised.h"
 #include "shards/summary.h"
 
 namespace tofray::shards {
@@ -70,7 +71,7 @@ std::string croissant_text(const Summary& of, const std::string& sums) {
   Json fields = Json::array();
   for (const std::string& name : of.plan.arrays) {
     const results::ArrayRow& row = *results::find_array(name);
-    fields.push(field(name + ".npy", row.what + " [" + row.unit + "], " + row.type.name() + " " + row.shape, "sc:Text"));
+    fields.push(field(name + ".npy", row.what + " [" + row.unit + "], " + stored_type(of.set, row) + " " + row.shape, "sc:Text"));
   }
   fields.push(field("json", "frequencies, phases and exposures, camera, objects, what was drawn, and the scene", "sc:Text"));
   Json records = Json::object();

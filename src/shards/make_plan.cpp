@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <map>
 #include <optional>
 
@@ -93,13 +93,19 @@ Plan extended(const Plan& before, const dataset::Scenes& scenes, const PlanReque
 /// What was found by computing some samples.
 struct Pilot {
   std::vector<std::string> arrays;
-  std::uint64_t bytes = 0, pixels = 0, valid = 0;
-  double seconds = 0;
+  std::uint64_t bytes = 0, pixels = 0, valid = 0, samples = 0;
+  double seconds = 0, least_valid = 1, most_valid = 0;
   std::map<std::string, std::string> inputs;
 };
 
+/// Of this thread's work, whatever else the machine does.
+double processor_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 Pilot fly(const dataset::Scenes& scenes, const PlanRequest& request) {
-  using Clock = std::chrono::steady_clock;
   const dataset::SetFile& set = scenes.set();
   const std::uint64_t count = std::clamp<std::uint64_t>(request.pilot, 1, set.samples);
   const SampleMaker maker(scenes, {}, request.progress);
@@ -113,10 +119,10 @@ Pilot fly(const dataset::Scenes& scenes, const PlanRequest& request) {
       count, request.threads,
       [&](std::uint64_t i) {
         const std::uint64_t sample = i * (set.samples / count);
-        const auto start = Clock::now();
+        const double start = processor_s();
         One one;
         for (std::uint64_t view = 0; view < set.views; ++view) one.views.push_back(maker.make(sample, view));
-        one.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        one.seconds = processor_s() - start;
         return one;
       },
       [&](std::uint64_t i, const One& one) {
@@ -129,11 +135,13 @@ Pilot fly(const dataset::Scenes& scenes, const PlanRequest& request) {
                         fmt::format("{}: error: its samples do not all have the same arrays\n  sample 0 has {}; sample {} has {}; expected "
                                     "`arrays` that all have",
                                     set.source, base::listed(out.arrays, "and"), i * (set.samples / count), base::listed(arrays, "and")));
+          const double valid = static_cast<double>(view.statistics.valid) / static_cast<double>(view.statistics.pixels);
+          out.least_valid = std::min(out.least_valid, valid), out.most_valid = std::max(out.most_valid, valid);
           out.bytes += tar_bytes(view), statistics.add(view.statistics), out.inputs.insert(view.inputs.begin(), view.inputs.end());
         }
       });
   out.bytes = (out.bytes + count - 1) / count, out.seconds /= static_cast<double>(count);
-  out.pixels = statistics.pixels, out.valid = statistics.valid;
+  out.pixels = statistics.pixels, out.valid = statistics.valid, out.samples = count;
   return out;
 }
 
@@ -175,7 +183,7 @@ DatasetPlan plan(const PlanRequest& request) {
     DatasetPlan out = shown(now, scenes);
     out.found = now.samples == before.samples ? DatasetPlan::Found::same : DatasetPlan::Found::fewer_samples;
     if (out.found == DatasetPlan::Found::fewer_samples) {
-      files::write_file_atomically(path, plan_text(now));
+      files::write_file_atomically(path, plan_text(now, scenes.set().as));
       free_last_shard(request.folder, before, now);
     }
     return out;
@@ -195,9 +203,10 @@ DatasetPlan plan(const PlanRequest& request) {
   if (fault)
     throw Error(ErrorKind::io, fmt::format("{}: error: cannot make this folder: {}\n  choose another one with -o", request.folder.native(),
                                            fault.message()));
-  files::write_file_atomically(path, plan_text(made));
+  files::write_file_atomically(path, plan_text(made, scenes.set().as));
   DatasetPlan out = shown(made, scenes);
   out.sample_seconds = pilot.seconds, out.pixels = pilot.pixels, out.valid = pilot.valid;
+  out.pilot = pilot.samples, out.least_valid = pilot.least_valid, out.most_valid = pilot.most_valid;
   return out;
 }
 

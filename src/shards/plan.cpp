@@ -11,6 +11,7 @@
 #include "files/json.h"
 #include "files/read_bytes.h"
 #include "files/sha256.h"
+#include "shards/quantised.h"
 #include "tofray/error.h"
 
 namespace tofray::shards {
@@ -40,6 +41,16 @@ Json reads_json(const std::map<std::string, std::string>& reads) {
                           where, key, form));
 }
 
+Json as_json(const std::vector<dataset::Quantised>& all) {
+  Json out = Json::object();
+  for (const dataset::Quantised& one : all) {
+    Json about = Json::object();
+    put_step(about, one);
+    out.set(one.array, std::move(about));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::uint64_t Plan::count_of(std::uint64_t shard) const { return std::min(shard_samples, samples - first_of(shard)); }
@@ -54,11 +65,12 @@ std::string id_of(const Plan& plan, const std::string& laws) {
   return files::sha256_hex(files::json_text(out));
 }
 
-std::string plan_text(const Plan& plan) {
+std::string plan_text(const Plan& plan, const std::vector<dataset::Quantised>& as) {
   Json out = Json::object();
   out.set("format", form).set("id", plan.id).set("tofray", plan.version);
   out.set("samples", plan.samples).set("views", plan.views).set("shard_samples", plan.shard_samples).set("shards", plan.shards());
   out.set("sample_bytes", plan.sample_bytes).set("arrays", Json::list(plan.arrays)).set("canary", plan.canary);
+  if (!as.empty()) out.set("as", as_json(as));
   out.set("folder", plan.folder).set("inputs", inputs_json(plan.inputs)).set("reads", reads_json(plan.reads));
   out.set("set", Json::object().set("file", plan.set_name).set("text", plan.set_text));
   return files::json_text(out, 2) + "\n";

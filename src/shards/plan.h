@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dataset/scenes.h"
+#include "dataset/stored.h"
 #include "results/array_table.h"
 #include "tofray/file_record.h"
 #include "tofray/shards.h"
@@ -33,7 +34,8 @@ struct Plan {
   [[nodiscard]] std::uint64_t count_of(std::uint64_t shard) const;
 };
 
-std::string plan_text(const Plan& plan);
+/// @param as  of its set, for readers: what is made follows from the set's text
+std::string plan_text(const Plan& plan, const std::vector<dataset::Quantised>& as);
 /// The id that a plan has to have. @param laws  SetFile::laws of its text
 std::string id_of(const Plan& plan, const std::string& laws);
 Plan parse_plan(std::string_view text, const std::string& where);

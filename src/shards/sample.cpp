@@ -16,6 +16,7 @@
 #include "load/load.h"
 #include "results/frame_file.h"
 #include "run/profile_tables.h"
+#include "shards/quantised.h"
 #include "tofray/analysis.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
@@ -27,15 +28,7 @@ namespace {
 
 using files::Json;
 
-/// What a set has that asks for nothing.
-constexpr const char* usual_arrays = "raw,z_m,flags,gt_z_m,gt_object_id";
 constexpr std::string_view npy = ".npy";
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ",") + word;
-  return out;
-}
 
 Json numbers(const files::NpyView& view) {
   const files::NpyArray array{view.type, view.shape, std::string(view.bytes)};
@@ -97,8 +90,7 @@ Json objects_json(const Scene& scene, const Truth& truth) {
 
 SampleMaker::SampleMaker(const dataset::Scenes& scenes, std::vector<std::string> arrays, FrameProgress* progress)
     : scenes_(scenes), arrays_(std::move(arrays)), progress_(progress) {
-  const std::vector<std::string>& asked = arrays_.empty() ? scenes.set().arrays : arrays_;
-  choice_ = results::ArrayChoice(asked.empty() ? usual_arrays : joined(asked));
+  choice_ = dataset::choice_of(arrays_.empty() ? scenes.set().arrays : arrays_);
   for (const results::ArrayRow& row : results::array_table())
     if (row.is_image() &&
         (choice_.has(row) || row.name == "z_m" || row.name == "flags" || row.name == "gt_z_m" || row.name == "gt_object_id"))
@@ -174,9 +166,16 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
       small.set(one.name, numbers(one));
       continue;
     }
-    arrays.set(one.name, Json::object().set("unit", row.unit).set("dtype", one.type.name()).set("shape", Json::list(one.shape)));
-    std::string bytes = files::npy_header(one.type, one.shape);
-    bytes.append(one.bytes);
+    Json about = Json::object();
+    about.set("unit", row.unit).set("dtype", one.type.name()).set("shape", Json::list(one.shape));
+    std::string bytes;
+    if (const dataset::Quantised* as = quantised(scenes_.set(), one.name)) {
+      bytes = quantised_npy(one, *as, scenes_.source(sample, view));
+      put_step(about, *as);
+    } else {
+      bytes = files::npy_header(one.type, one.shape).append(one.bytes);
+    }
+    arrays.set(one.name, std::move(about));
     out.members.push_back({one.name + std::string(npy), std::move(bytes)});
   }
   if (const std::vector<std::string> has = arrays_of(out); !arrays_.empty() && has != arrays_)

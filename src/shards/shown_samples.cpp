@@ -10,6 +10,7 @@
 #include "pictures/png_file.h"
 #include "pictures/value_scale.h"
 #include "shards/layout.h"
+#include "shards/quantised.h"
 #include "shards/shard_tar.h"
 
 namespace tofray::shards {
@@ -20,20 +21,26 @@ constexpr std::uint64_t most_spread = 24;
 constexpr std::size_t most_worst = 6;
 
 /// Lengths in the colours of depth pictures, from the 1st to the 99th percentile; what is invalid is dark.
-std::string depth_picture(const files::NpyArray& z) {
+std::string depth_picture(const files::NpyArray& z, const files::Json* about) {
   const auto height = static_cast<int>(z.shape[0]), width = static_cast<int>(z.shape[1]);
   std::vector<double> valid;
   for (std::size_t i = 0; i < z.count(); ++i)
-    if (std::isfinite(z.number(i))) valid.push_back(z.number(i));
+    if (const double one = stored_number(z, i, about); std::isfinite(one)) valid.push_back(one);
   const pictures::PictureScale scale = pictures::length_scale(valid);
   std::vector<std::uint8_t> pixels;
   pixels.reserve(3 * z.count());
   for (std::size_t i = 0; i < z.count(); ++i) {
-    const double one = z.number(i);
+    const double one = stored_number(z, i, about);
     const pictures::Rgb color = std::isfinite(one) ? pictures::depth_color(scale.at(one)) : pictures::invalid_color;
     pixels.insert(pixels.end(), {color.red, color.green, color.blue});
   }
   return pictures::png_rgb8(width, height, pixels);
+}
+
+/// What a sample's JSON says of the array in a member.
+const files::Json* array_of(const files::Json& about, const std::string& member) {
+  const files::Json* const arrays = about.find("arrays");
+  return arrays != nullptr ? arrays->find(member.substr(0, member.size() - std::string_view(".npy").size())) : nullptr;
 }
 
 }  // namespace
@@ -60,14 +67,14 @@ std::vector<ShownSample> ShownSamples::read(const std::vector<Place>& places) co
     if (!tar.is_open()) throw Error(ErrorKind::io, path.native() + ": error: cannot open it");
     ShownSample& one = out.emplace_back();
     one.sample = place.sample.sample, one.view = place.sample.view, one.pixels = place.sample.pixels, one.valid = place.sample.valid;
-    for (const char* wanted : {"gt_z_m.npy", "z_m.npy", "json"})
+    for (const char* wanted : {"json", "gt_z_m.npy", "z_m.npy"})
       for (const Record::Member& member : place.sample.members) {
         if (member.name != wanted) continue;
         const std::string bytes = tar.read(member), where = path.native() + ": " + member.name;
         if (member.name == "json")
           one.about = files::parse_json(bytes, where);
         else
-          one.png = depth_picture(files::parse_npy(bytes, where));
+          one.png = depth_picture(files::parse_npy(bytes, where), array_of(one.about, member.name));
       }
   }
   return out;

@@ -63,6 +63,23 @@ def test_what_is_computed_has_the_bytes_of_what_is_stored(merged: pathlib.Path) 
     assert not stored[3]["raw"].flags.writeable
 
 
+def test_what_is_stored_as_whole_numbers_comes_as_what_these_stand_for(merged: pathlib.Path, tmp_path: pathlib.Path) -> None:
+    text = SET.replace("samples: 20", "samples: 4\nas: {gt_z_m: {type: uint16, step: 0.5 mm}}")
+    (tmp_path / "set.yaml").write_text(text, encoding="utf-8")
+    for word in (("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1"), ("run", tmp_path / "out"), ("merge", tmp_path / "out")):
+        tool(*word)
+    stored, computed = tofray.open_dataset(tmp_path / "out"), tofray.open_dataset(tmp_path / "out", computed=True)
+    exact = tofray.open_dataset(merged)
+    for row in range(8):
+        a, b = stored[row], computed[row]
+        for name in stored.arrays:
+            assert a[name].dtype == b[name].dtype and a[name].tobytes() == b[name].tobytes(), name
+        z, true = a["gt_z_m"], exact[row]["gt_z_m"]
+        assert z.dtype == np.float32 and np.array_equal(np.isnan(z), np.isnan(true))
+        assert 0 < np.nanmax(abs(z - true)) <= 0.25e-3 + 1e-6
+        assert a["json"]["arrays"]["gt_z_m"] == {"unit": "m", "dtype": "uint16", "shape": list(z.shape), "step": 0.0005, "no_value": 65535}
+
+
 @pytest.mark.parametrize("world", [1, 3])
 def test_an_epoch_has_each_row_once_of_all_ranks_together(merged: pathlib.Path, world: int) -> None:
     samples = tofray.open_dataset(merged)

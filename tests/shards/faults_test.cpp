@@ -211,7 +211,7 @@ TEST(command, tells_what_it_did_and_ends_with_1_where_something_is_missing) {
   EXPECT_EQ(rest.code, 0);
   EXPECT_TRUE(has(rest.err, "5 shards made, 3 there before\n")) << rest.err;
   const Result verified = run({"dataset", "verify", out, "--recompute", "100%"});
-  EXPECT_EQ(verified.out, "8 shards read, 40 samples computed again\n");
+  EXPECT_EQ(verified.out, "8 shards read, 40 samples computed again (each is, by a chance of 100 %)\n");
   EXPECT_EQ(verified.code, 0);
   const Result merged = run({"dataset", "merge", out});
   EXPECT_TRUE(merged.out.starts_with("40 samples in 8 shards, ")) << merged.out;

@@ -358,7 +358,7 @@ TEST(plan, whose_frame_comes_out_otherwise_here_is_refused_before_anything_is_wr
   shards::Plan plan = shards::load_plan(set.out());
   plan.canary[0] = plan.canary[0] == '0' ? '1' : '0';
   plan.id = shards::id_of(plan, shards::scenes_of(shards::load_plan(set.out()), set.out())->set().laws);
-  write(set.out() / "plan.json", shards::plan_text(plan));
+  write(set.out() / "plan.json", shards::plan_text(plan, {}));
   const Error error = error_of([&] { set.run(); });
   EXPECT_EQ(error.kind(), ErrorKind::bad_input);
   EXPECT_TRUE(has(error.what(), "this tofray makes other bytes than the one that made the plan")) << error.what();

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/text.h"
 #include "cli/commands.h"
@@ -18,6 +19,7 @@
 #include "files/atomic_file.h"
 #include "files/json.h"
 #include "pictures/pictures.h"
+#include "tofray/analysis.h"
 #include "tofray/error.h"
 #include "tofray/load.h"
 #include "tofray/simulator.h"
@@ -146,6 +148,34 @@ std::vector<Drawn> with_scatters_joined(std::vector<Drawn> drawn) {
   return drawn;
 }
 
+/// What is seldom meant of a scene, and in how many samples it is so: in the words of the first of them.
+class Oddities {
+ public:
+  void add(std::uint64_t sample, const Scene& scene, const Camera& camera) {
+    for (const SceneFinding& one : scene_report(scene, camera).findings) {
+      if (!one.warning) continue;
+      const std::string name = one.objects.empty() ? "" : scene.objects[static_cast<std::size_t>(one.objects.front())].name;
+      Oddity& same = all_.try_emplace({one.kind, name}, Oddity{sample, one}).first->second;
+      if (same.samples.empty() || same.samples.back() != sample) same.samples.push_back(sample);
+    }
+    ++looked_at_;
+  }
+  void tell(Remarks& remarks) const {
+    for (const auto& [key, one] : all_)
+      remarks.tell(fmt::format("warning: {}\n  so in {} of {} samples that were looked at, first in {}; {}\n",
+                               base::printable(one.said.what), one.samples.size(), looked_at_, one.first, base::printable(one.said.more)));
+  }
+
+ private:
+  struct Oddity {
+    std::uint64_t first = 0;
+    SceneFinding said;
+    std::vector<std::uint64_t> samples;
+  };
+  std::map<std::pair<SceneFinding::Kind, std::string>, Oddity> all_;
+  std::uint64_t looked_at_ = 0;
+};
+
 int run_check_of_set(const Dataset& set, const Options& options) {
   constexpr std::uint64_t most_drawn = 1000, most_read = 20;
   const std::uint64_t drawn = std::min(set.samples(), most_drawn), read = std::min(set.samples(), most_read);
@@ -159,10 +189,13 @@ int run_check_of_set(const Dataset& set, const Options& options) {
       columns[one.path].add(one);
     }
   }
+  Oddities odd;
   for (std::uint64_t i = 0; i < read; ++i) {
     const Scene scene = set.scene(i, i % set.views());
-    load_camera(scene);
+    odd.add(i, scene, load_camera(scene));
   }
+  Remarks remarks;
+  odd.tell(remarks);
   if (options.json) {
     files::Json all = files::Json::array();
     for (const std::string& path : order) {
@@ -184,7 +217,7 @@ int run_check_of_set(const Dataset& set, const Options& options) {
         .set("samples", set.samples())
         .set("views", set.views())
         .set("combinations", set.combinations());
-    print(files::json_text(json.set("looked_at", drawn).set("drawn", std::move(all)), 2) + "\n");
+    print(files::json_text(remarks.put(json.set("looked_at", drawn).set("drawn", std::move(all))), 2) + "\n");
     return 0;
   }
   std::string text = fmt::format("{}: {} samples", base::printable(set.name()), set.samples());
@@ -198,7 +231,6 @@ int run_check_of_set(const Dataset& set, const Options& options) {
   for (const std::string& path : order)
     text += fmt::format("  {:<{}}  {:<{}}  {}\n", cut(path, 48), widest, columns[path].form, form, range_text(columns[path]));
   print(text);
-  Remarks remarks;
   if (order.empty()) remarks.tell("warning: nothing varies in this set\n  a value may be a form, such as {uniform: [1 m, 3 m]}\n");
   if (set.combinations() > set.samples())
     remarks.tell(

@@ -99,6 +99,7 @@ int run_dataset_plan(const Options& options) {
         .set("arrays", Json::list(plan.arrays))
         .set("sample_bytes", plan.sample_bytes);
     json.set("bytes", bytes).set("sample_seconds", plan.sample_seconds).set("core_seconds", core_seconds).set("valid", valid);
+    json.set("pilot", plan.pilot).set("least_valid", plan.least_valid).set("most_valid", plan.most_valid);
     print(files::json_text(remarks.put(json), 2) + "\n");
     return 0;
   }
@@ -108,9 +109,10 @@ int run_dataset_plan(const Options& options) {
   text += fmt::format("  arrays   {}\n  size     {} ({} a sample)\n", base::listed(plan.arrays, "and"), set_size_text(bytes),
                       set_size_text(static_cast<double>(plan.sample_bytes)));
   if (plan.found == DatasetPlan::Found::nothing)
-    text +=
-        fmt::format("  time     {} of one core, as this machine is now ({:.3g} ms a sample); {:.1f} % of the pilot's pixels are valid\n",
-                    core_time_text(core_seconds), 1000 * plan.sample_seconds, 100 * valid);
+    text += fmt::format(
+        "  time     {} of one core ({:.3g} ms a sample)\n  valid    {:.1f} % of the pixels of {} looked at ({:.0f} to {:.0f} %)\n",
+        core_time_text(core_seconds), 1000 * plan.sample_seconds, 100 * valid, counted(plan.pilot, "sample"), 100 * plan.least_valid,
+        100 * plan.most_valid);
   if (plan.found == DatasetPlan::Found::same) text += "  the same plan was there\n";
   if (plan.found == DatasetPlan::Found::fewer_samples) text += "  the plan that was there has more samples now\n";
   print(text);
@@ -211,7 +213,9 @@ int run_dataset_verify(const Options& options) {
   } else {
     text +=
         fmt::format("{} read{}{}\n", counted(result.shards, "shard"), result.missing > 0 ? fmt::format(", {} missing", result.missing) : "",
-                    options.shards.recompute > 0 ? fmt::format(", {} computed again", counted(result.recomputed, "sample")) : "");
+                    options.shards.recompute > 0 ? fmt::format(", {} computed again (each is, by a chance of {:.3g} %)",
+                                                               counted(result.recomputed, "sample"), 100 * options.shards.recompute)
+                                                 : "");
     print(text);
   }
   if (result.interrupted) return 128 + stop.signal();
