@@ -123,19 +123,26 @@ def bytes_differ(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     return [row["what"] for row in rows if "old" in row and "new" in row and row["old"]["frame"] != row["new"]["frame"]]
 
 
+def left_out_lines(left_out: Mapping[str, str]) -> list[str]:
+    """Reasons, each once with the builds that it is of."""
+    builds: dict[str, list[str]] = {}
+    for name, reason in left_out.items():
+        builds.setdefault(reason, []).append(name)
+    return [line for reason, names in builds.items() for line in (f"Left out of {' and '.join(names)}: {reason}.", "")]
+
+
 def topic_lines(topic: Mapping[str, Any], names: Sequence[str]) -> list[str]:
     commands = list(dict.fromkeys(row[name]["command"] for row in topic["rows"] for name in names if name in row))
-    lines = [f"## {topic['title']}", ""]
-    lines += [f"{name.capitalize()} is left out: {reason}." for name, reason in topic["left_out"].items()] + [""] * bool(topic["left_out"])
+    lines = [f"## {topic['title']}", "", *left_out_lines(topic["left_out"])]
     lines += ["| what | unit | " + " | ".join(f"{name}: median (best)" for name in names) + " | new/old: medians, bests | goal | | how |",
               "|---" * (len(names) + 6) + "|"]
     for row in topic["rows"]:
-        ratio = f"{row['ratio']['median']:.2f}, {row['ratio']['best']:.2f}" if row["ratio"] else ""
+        ratio = f"{row['ratio']['median']:.3f}, {row['ratio']['best']:.3f}" if row["ratio"] else ""
         how = next((str(commands.index(row[name]["command"]) + 1) for name in names if name in row), "")
         lines.append(f"| {row['what']} | {row['unit']} | {' | '.join(cell(row, name) for name in names)} | {ratio} | {row['goal']} | {verdict(row)} | {how} |")
     differ = bytes_differ(topic["rows"])
     lines += ["", f"**Frames have other bytes**: {'; '.join(differ)}."] if differ else []
-    return [*lines, "", *(f"{i}. `{command}`" for i, command in enumerate(commands, 1)), ""]
+    return [*lines, "", *(f"{i}. `{command}`" for i, command in enumerate(commands, 1)), *[""] * bool(commands)]
 
 
 def markdown(all_of: Mapping[str, Any]) -> str:

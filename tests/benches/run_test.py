@@ -145,7 +145,7 @@ class Run(unittest.TestCase):
         self.assertEqual((row["new"]["rounds"], row["new"]["median"], row["new"]["best"]), ([3, 2, 9], 3, 2))
         self.assertEqual(row["ratio"], {"median": 0.6, "best": 0.5})
         self.assertEqual((row["goal"], row["met"]), ("≤ 1.02 of old", True))
-        self.assertIn("| bench-primitives, another lens | ms | 5 (4) | 3 (2) | 0.60, 0.50 | ≤ 1.02 of old | met | 1 |", self.table())
+        self.assertIn("| bench-primitives, another lens | ms | 5 (4) | 3 (2) | 0.600, 0.500 | ≤ 1.02 of old | met | 1 |", self.table())
 
     def test_of_rates_the_greatest_is_best(self) -> None:
         program(self.work / "v/benches/bench_anywhere", "#!/usr/bin/python3\nimport pathlib\nfile = pathlib.Path(__file__).parent / 'calls'\n"
@@ -171,7 +171,7 @@ class Run(unittest.TestCase):
         self.build("w", [1.0], programs=False)
         done = self.run_benches(self.work / "w", "--topics", "anywhere,samples", "--rounds", "1")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("New is left out: benches/bench_anywhere is not built (cmake -DTOFRAY_BENCHES=ON, target bench_anywhere).", self.table())
+        self.assertIn("Left out of new: benches/bench_anywhere is not built (cmake -DTOFRAY_BENCHES=ON, target bench_anywhere).", self.table())
         self.assertIn("| 101,920 triangles, to Embree |  | – |  | ≥ 1 | not measured |  |", self.table())
         self.assertIn("| 3 × 3 samples within pixels, to one | × | 1 (1) |  | ≤ 4 | met | 2 |", self.table())
 
@@ -179,28 +179,32 @@ class Run(unittest.TestCase):
         self.build("w", [1.0], programs=False)
         row = self.rows(self.work / "w", self.work / "v", "--topics", "anywhere", "--rounds", "2")["101,920 triangles, to Embree"]
         self.assertEqual((row["new"]["rounds"], "old" in row, row["ratio"], row["met"]), ([0.75, 0.75], False, None, False))
-        self.assertIn("Old is left out: benches/bench_anywhere", self.table())
+        self.assertIn("Left out of old: benches/bench_anywhere", self.table())
 
     def test_no_gpu_and_no_node_are_said(self) -> None:
         (self.work / "v/viewer").mkdir()
         done = self.run_benches(self.work / "v", "--topics", "gpu,viewer", path=str(self.work))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("New is left out: no GPU can be used: no driver.", self.table())
-        self.assertIn("New is left out: node is missing.", self.table())
+        self.assertIn("Left out of new: no GPU can be used: no driver.", self.table())
+        self.assertIn("Left out of new: node is missing.", self.table())
+
+    def test_a_reason_of_both_is_said_once(self) -> None:
+        self.rows(self.work / "u", self.work / "v", "--topics", "gpu")
+        self.assertIn("Left out of old and new: no GPU can be used: no driver.", self.table())
 
     def test_a_skipped_test_gives_its_reason(self) -> None:
         (self.work / "v/viewer").mkdir()
         program(self.work / "bin/node", "#!/bin/sh\necho '# SKIPPED: there is no chromium here'\nexit 77\n")
         self.run_benches(self.work / "v", "--topics", "viewer", path=f"{self.work / 'bin'}:/usr/bin:/bin")
-        self.assertIn("New is left out: there is no chromium here.", self.table())
+        self.assertIn("Left out of new: there is no chromium here.", self.table())
 
     def test_a_program_that_ends_badly_or_prints_something_else_is_a_fault(self) -> None:
         (self.work / "v/broken").write_text("error: out of memory")
         program(self.work / "v/benches/bench_bounces", printer("hello\n"))
         done = self.run_benches(self.work / "v", "--topics", "samples,bounces")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("New is left out: `BUILD/apps/tofray/tofray bench flying-ball --frames 30 --json` ended with 1: error: out of memory.", self.table())
-        self.assertIn("New is left out: `BUILD/benches/bench_bounces 16 times` printed no figure that is known: hello.", self.table())
+        self.assertIn("Left out of new: `BUILD/apps/tofray/tofray bench flying-ball --frames 30 --json` ended with 1: error: out of memory.", self.table())
+        self.assertIn("Left out of new: `BUILD/benches/bench_bounces 16 times` printed no figure that is known: hello.", self.table())
 
     def test_frames_of_other_bytes_are_named(self) -> None:
         words = (self.work / "u", self.work / "v", "--topics", "primitives", "--rounds", "1")
