@@ -206,7 +206,7 @@ def objects(at: Build) -> Iterator[Figure]:
 # --- The disk, the pixel, the viewer ---
 
 def recording(at: Build) -> Iterator[Figure]:
-    text, command = at.run("benches/recording.py", at.tofray, at.bench("bench_frames"), at.scratch, "--frames", "150", "--rounds", "1")
+    text, command = at.run("benches/recording.py", at.tofray, at.bench("bench_frames"), at.scratch, "--frames", "100", "--rounds", "1")
     for found in matches(r"^\| (all|raw\S+) \|(?: [\d.]+ \|){3} ([\d.]+) \| ([\d.]+) % \|", text, command):
         row = "all arrays" if found[1] == "all" else found[1]
         yield Figure(f"{row}, recorded", float(found[2]), "frames/s", command, less_is_better=False)
@@ -249,7 +249,7 @@ TOPICS: Mapping[str, Topic] = {
     "set-up": Topic("Set-up of a simulator", 7, set_up),
     "anywhere": Topic("Rays from anywhere", 3, anywhere),
     "bounces": Topic("Light that bounces", 3, bounces),
-    "meshes": Topic("Meshes", 3, meshes),
+    "meshes": Topic("Meshes", 2, meshes),
     "objects": Topic("Many objects", 2, objects),
     "samples": Topic("Samples in motion", 3, samples),
     "recording": Topic("Recording to the disk", 2, recording),
