@@ -58,6 +58,9 @@ def measure(name: str, topic: Topic, builds: Sequence[Build], rounds: int) -> Me
         except (LeftOut, Failed) as fault:
             out.left_out[build.name] = str(fault)
             out.failed = out.failed or isinstance(fault, Failed)
+        except (LookupError, TypeError, ValueError) as fault:
+            out.left_out[build.name] = f"its results lack what is read of them ({type(fault).__name__}: {fault})"
+            out.failed = True
     return out
 
 

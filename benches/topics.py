@@ -111,7 +111,7 @@ def to(figure: Figure, other: Figure, row: str) -> Figure:
 
 def frame(at: Build, row: str, *words: str) -> Figure:
     results, command = at.frames(*words)
-    return Figure(row, results[0]["ms_median"], "ms", command, frame=results[0]["sha256"])
+    return Figure(row, float(results[0]["ms_median"]), "ms", command, frame=results[0]["sha256"])
 
 
 def primitives(at: Build) -> Iterator[Figure]:
@@ -125,7 +125,7 @@ def set_up(at: Build) -> Iterator[Figure]:
     for scene in ("bench-primitives", "bench-mesh"):
         results, command = at.frames(scene, "--frames", "10")
         for what, ms in results[0]["set_up_ms"].items():
-            yield Figure(f"{scene}, {what.replace('_', ' ').replace('sensor number', 'number of the sensor')}", ms, "ms", command)
+            yield Figure(f"{scene}, {what.replace('_', ' ').replace('sensor number', 'number of the sensor')}", float(ms), "ms", command)
 
 
 def samples(at: Build) -> Iterator[Figure]:
@@ -143,7 +143,7 @@ def gpu(at: Build) -> Iterator[Figure]:
         for one in results:
             differing = "" if one["differing"] == "index" else f", of other {one['differing']}"
             for where, key in (("left there", "frames_per_s_device"), ("taken to the host", "frames_per_s_host")):
-                yield Figure(f"{scene}{differing}, {where}", one[key], "frames/s", command, less_is_better=False)
+                yield Figure(f"{scene}{differing}, {where}", float(one[key]), "frames/s", command, less_is_better=False)
 
 
 # --- Rays ---

@@ -40,6 +40,8 @@ figures = json.loads((here / "figures").read_text())
 (here / "figures").write_text(json.dumps(figures[1:] or figures))
 one = {"isa": "avx2", "ms_median": figures[0], "ms_p10": figures[0], "sha256": here.name if (here / "other_bytes").exists() else "abc",
        "set_up_ms": {"another_lens": figures[0], "another_sensor_number": 0.5}}
+if (here / "no_set_up").exists():
+    del one["set_up_ms"]
 batches = [{"differing": name, "frames_per_s_device": 1e5, "frames_per_s_host": 9e3} for name in ("index", "seeds", "poses")]
 if "--json" in words:
     print(json.dumps({"results": batches if "cuda" in words else [one]}))
@@ -205,6 +207,13 @@ class Run(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("Left out of new: `BUILD/apps/tofray/tofray bench flying-ball --frames 30 --json` ended with 1: error: out of memory.", self.table())
         self.assertIn("Left out of new: `BUILD/benches/bench_bounces 16 times` printed no figure that is known: hello.", self.table())
+
+    def test_results_that_lack_something_leave_the_other_build_its_figures(self) -> None:
+        (self.work / "u/no_set_up").touch()
+        done = self.run_benches(self.work / "u", self.work / "v", "--topics", "set-up", "--rounds", "2")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("Left out of old: its results lack what is read of them (KeyError: 'set_up_ms').", self.table())
+        self.assertIn("| bench-primitives, another lens | ms | – | 1 (1) |", self.table())
 
     def test_frames_of_other_bytes_are_named(self) -> None:
         words = (self.work / "u", self.work / "v", "--topics", "primitives", "--rounds", "1")
