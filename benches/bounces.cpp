@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "tofray/load.h"
@@ -70,26 +72,57 @@ Off difference(const Truth& a, const Truth& b, std::size_t at) {
   return {std::sqrt(share / count), std::sqrt(shift / count)};
 }
 
+/// Scenes by name, numbers of ways, and whether errors are measured, too.
+struct Asked {
+  std::vector<std::string> scenes;
+  std::vector<int> ways;
+  bool errors = true;
+};
+
+Asked asked_by(int count, char** words) {
+  Asked out;
+  for (int i = 1; i < count; ++i) {
+    const std::string word = words[i];
+    if (word == "times")
+      out.errors = false;
+    else if (const int ways = std::atoi(words[i]); ways > 0)
+      out.ways.push_back(ways);
+    else
+      out.scenes.push_back(word);
+  }
+  if (out.ways.empty()) out.ways = {1, 4, 16, 64, 256};
+  return out;
+}
+
+/// A row for light that does not bounce, and one for each number of ways.
+void measure(Scene scene, int bounces, const Asked& asked) {
+  const Camera camera = load_camera(scene);
+  const char* name = scene.name.c_str();
+  scene.transport = {0, 1, 0};
+  std::printf("%-20s  %7d  %4s  %8.2f\n", name, 0, "-", frame_ms(scene, camera, 41));
+  scene.transport.bounces = bounces;
+  const Truth known = asked.errors ? truth_of(scene, camera, 4096, 1) : Truth();
+  const auto lit = known.range_m.size();  // the first raw frame is the grey one
+  for (const int ways : asked.ways) {
+    scene.transport.samples = ways;
+    std::printf("%-20s  %7d  %4d  %8.2f", name, bounces, ways, frame_ms(scene, camera, ways > 64 ? 5 : 11));
+    if (asked.errors) {
+      const Off off = difference(truth_of(scene, camera, ways, 0), known, lit);
+      std::printf("  %30.2f  %6.2f", 100 * off.share, off.shift_mm);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
-/// @param words  names of scenes, in place of all of them
+/// @param words  names of scenes and numbers of ways, in place of all of them; `times` for no errors, which take most of the time
 int main(int count, char** words) {
+  const Asked asked = asked_by(count, words);
   std::printf("scene                 bounces  ways        ms   off by [%% of the direct light]  [mm]\n");
   for (const auto& [scene, bounces] : {std::pair{corner_with_box(), 7}, {load_scene("room"), 7}, {load_scene("bench-mesh"), 3}}) {
-    Scene one = scene;
-    if (count > 1 && std::find(words + 1, words + count, one.name) == words + count) continue;
-    const Camera camera = load_camera(one);
-    one.transport = {0, 1, 0};
-    std::printf("%-20s  %7d  %4s  %8.2f\n", one.name.c_str(), 0, "-", frame_ms(one, camera, 41));
-    one.transport.bounces = bounces;
-    const Truth known = truth_of(one, camera, 4096, 1);
-    const auto lit = known.range_m.size();  // the first raw frame is the grey one
-    for (const int ways : {1, 4, 16, 64, 256}) {
-      one.transport.samples = ways;
-      const double ms = frame_ms(one, camera, ways > 64 ? 5 : 11);
-      const Off off = difference(truth_of(one, camera, ways, 0), known, lit);
-      std::printf("%-20s  %7d  %4d  %8.2f  %30.2f  %6.2f\n", one.name.c_str(), bounces, ways, ms, 100 * off.share, off.shift_mm);
-      std::fflush(stdout);
-    }
+    const bool wanted = asked.scenes.empty() || std::find(asked.scenes.begin(), asked.scenes.end(), scene.name) != asked.scenes.end();
+    if (wanted) measure(scene, bounces, asked);
   }
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the sensor's effects cost: time of a frame with all of them, and with each alone, over that without.  whole_pixel.py TOFRAY [ROUNDS]
+"""What the sensor's effects cost: time of a frame with all of them, and with each alone, over that without.  whole_pixel.py TOFRAY [ROUNDS [EFFECTS...]]
 
 `tofray bench` of the scene bench-primitives, all variants in turn in each round; ratios of the fastest tenths, medians over the rounds. Effects
 that take a pass over the image of their own (crosstalk, scatter, what overflows into neighbours) are not among them."""
@@ -39,11 +39,12 @@ def main():
         sys.exit(__doc__)
     tofray, rounds = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 5
     print("| effects | exact, 1 thread | exact, 2 threads | off, 1 thread | off, 2 threads |\n|---|---|---|---|---|")
-    times = {name: {} for name in variants}
+    wanted = {name: settings for name, settings in variants.items() if name == "none" or not sys.argv[3:] or name in sys.argv[3:]}
+    times = {name: {} for name in wanted}
     for _ in range(rounds):
         for noise in ("exact", "off"):
             for threads in (1, 2):
-                for name, settings in variants.items():
+                for name, settings in wanted.items():
                     times[name].setdefault((noise, threads), []).append(milliseconds(tofray, settings, threads, noise))
     for name, measured in times.items():
         cells = []
