@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Poses from matrices and quaternions, and back: what class Pose has beside its members."""
+"""Poses and placements from matrices and quaternions, and back: what these classes have beside their members."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from ._model import Pose
+    from ._model import Placement, Pose
 
 # Columns: the optical axes (right, down, forward) in others.
 _OPTICAL_IN = {
@@ -22,6 +22,35 @@ _OPTICAL_IN = {
     "body": ((0, 0, 1), (-1, 0, 0), (0, -1, 0)),
     "opengl": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
 }
+
+
+class PlacementMethods(Record):
+    __slots__ = ()
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> Placement:
+        """The placement that a matrix says: in the world, where the object stands at zero in the scene's file.
+
+        Parameters
+        ----------
+        matrix : array [4, 4], m
+            From the object's own frame to the world's: a rotation R, and a shift p in the last column; what is at x from the object's centre
+            is at R x + p then.
+
+        Returns
+        -------
+        Placement
+            With ``position`` and the rotation's ``quaternion``.
+
+        Raises
+        ------
+        Error
+            Where the upper left 3 x 3 is no rotation to 1e-3 (it scales, shears or mirrors), or the last row is not 0 0 0 1.
+        """
+        from . import _model
+
+        pose = _model.Pose.from_matrix(matrix)
+        return _model.Placement(position=pose.position, rotation=_model.Rotation(quaternion=pose.quaternion))
 
 
 class PoseMethods(Record):

@@ -24,7 +24,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Sequence
 
 from ._pinhole import PinholeMethods
-from ._pose import PoseMethods
+from ._pose import PlacementMethods, PoseMethods
 from ._record import Record
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def wrapped(text: str, indent: int) -> str:
 
 
 # Classes that have more than their members.
-BASES = {"Pinhole": "PinholeMethods", "Pose": "PoseMethods"}
+BASES = {"Pinhole": "PinholeMethods", "Placement": "PlacementMethods", "Pose": "PoseMethods"}
 
 # Units that a number's name ends in …
 ENDS = {"m": "m", "m2": "m²", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",

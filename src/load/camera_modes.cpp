@@ -116,7 +116,7 @@ std::size_t Modes::find_wanted() const {
   const auto found = std::find(all.names.begin(), all.names.end(), wanted.text);
   if (found != all.names.end()) return static_cast<std::size_t>(found - all.names.begin());
   faults_.add(wanted.place(), "no mode " + base::in_quotes(wanted.text) + base::did_you_mean(wanted.text, all.names),
-              "modes of this camera: " + base::listed(all.names, "and"));
+              "modes of this camera: " + base::listed(all.names, "and") + "; --mode or camera.mode chooses one");
   return 0;
 }
 

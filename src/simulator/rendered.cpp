@@ -180,6 +180,7 @@ class Sampler {
   void say_what_is_odd(std::size_t pixels);
   void compare_normals();
   void look_for_steps();
+  void look_for_millimetres();
 
   const RenderedPictures& given_;
   Reflectivities reflectivities_;
@@ -305,6 +306,23 @@ void Sampler::look_for_steps() {
         "z is in whole millimetres, and normals are made of its differences: they are wrong; expected finer z, or normals");
 }
 
+/// Millimetres that stand where metres are expected: half of what is seen lies beyond all cameras of this kind.
+void Sampler::look_for_millimetres() {
+  constexpr std::size_t step = 97;
+  constexpr double beyond_all_m = 100;
+  const DepthPicture depth(given_, 0);
+  const auto width = static_cast<std::size_t>(given_.pinhole.width), height = static_cast<std::size_t>(given_.pinhole.height);
+  std::vector<double> seen;
+  for (std::size_t i = 0; i < width * height; i += step)
+    if (const double z = depth.z(static_cast<int>(i % width), static_cast<int>(i / width)); z > 0) seen.push_back(z);
+  if (seen.empty()) return;
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  if (*middle > beyond_all_m)
+    out_.notices.push_back("z is " + base::number_text(std::round(*middle)) +
+                           " m at the median: millimetres? expected metres, as in z * 0.001, or background to say a far plane");
+}
+
 void Sampler::say_what_is_odd(std::size_t pixels) {
   if (unknown_ != none)
     refuse(given_.labels.empty() ? std::string("pictures say nothing of reflectivity")
@@ -332,6 +350,7 @@ void Sampler::say_what_is_odd(std::size_t pixels) {
         "nothing moves");
   compare_normals();
   look_for_steps();
+  look_for_millimetres();
 }
 
 }  // namespace

@@ -32,6 +32,16 @@ def test_a_pose_goes_to_a_matrix_and_back() -> None:
         assert pose.matrix.shape == (4, 4) and pose.matrix.dtype == np.float64
 
 
+def test_a_placement_comes_of_a_matrix() -> None:
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = rotation(0.7, 1, 2, 3), (1, 2, 3)
+    placement = tofray.Placement.from_matrix(matrix)
+    assert isinstance(placement, tofray.Placement) and placement.position == (1, 2, 3)
+    assert placement.rotation.quaternion == tofray.Pose.from_matrix(matrix).quaternion
+    with pytest.raises(tofray.BadInput):
+        tofray.Placement.from_matrix(2 * matrix)
+
+
 def test_the_scalar_is_last() -> None:
     half = math.radians(45)
     pose = tofray.Pose.from_quaternion([1, 2, 3], [0, 0, math.sin(half), math.cos(half)])

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import pathlib
 import pickle
 import shutil
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -108,19 +110,23 @@ def test_it_goes_to_another_process(merged: pathlib.Path) -> None:
     assert again[5]["z_m"].tobytes() == tofray.open_dataset(merged)[5]["z_m"].tobytes() and "stored" in repr(again)
 
 
-def test_torch_has_the_same_batches_from_shards_and_from_the_plan(merged: pathlib.Path) -> None:
+def test_torch_has_the_same_batches_from_shards_and_from_the_plan(tmp_path: pathlib.Path) -> None:
     torch = pytest.importorskip("torch")
-
-    class Stream(torch.utils.data.IterableDataset):  # type: ignore[misc, name-defined]
-        def __init__(self, computed: bool) -> None:
-            self.samples = tofray.open_dataset(merged, computed=computed)
-
-        def __iter__(self):  # type: ignore[no-untyped-def]
-            for batch in self.samples.stream(8, seed=3):
-                yield torch.from_numpy(batch["gt_z_m"])
-
-    both = [list(torch.utils.data.DataLoader(Stream(computed), batch_size=None)) for computed in (False, True)]
-    assert len(both[0]) == 5 and all(torch.equal(torch.nan_to_num(a), torch.nan_to_num(b)) for a, b in zip(*both))
+    text = SET.replace("{choice: [MODE_9_5FPS_2000, MODE_5_45FPS_500]}", "MODE_5_45FPS_500")
+    (tmp_path / "set.yaml").write_text(text, encoding="utf-8")
+    for word in (("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1"), ("run", tmp_path / "out"), ("merge", tmp_path / "out")):
+        tool(*word)
+    sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples/python"))
+    try:
+        stream = importlib.import_module("torch_samples").SetStream
+    finally:
+        sys.path.pop(0)
+    both = [list(stream(tmp_path / "out", 8, seed=3, computed=computed)) for computed in (False, True)]
+    assert len(both[0]) == len(both[1]) == 5
+    for (raw, z), (same_raw, same_z) in zip(*both):
+        assert raw.dtype == z.dtype == torch.float32 and torch.equal(raw, same_raw) and torch.equal(z, same_z) and z.max() > 0
+    parts = list(torch.utils.data.DataLoader(stream(tmp_path / "out", 8, seed=3), batch_size=None, num_workers=2))
+    assert sorted(float(raw.sum()) for raws, _ in parts for raw in raws) == sorted(float(raw.sum()) for raws, _ in both[0] for raw in raws)
 
 
 def test_a_hole_is_no_sample(merged: pathlib.Path, tmp_path: pathlib.Path) -> None:

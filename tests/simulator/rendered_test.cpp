@@ -258,6 +258,14 @@ TEST(rendered_pictures, of_whole_millimetres_make_no_normals_and_say_so) {
   EXPECT_FALSE(says(from_pictures(camera, drawn.pictures()), "z is in whole millimetres")) << "it does not matter then";
 }
 
+TEST(rendered_pictures, in_millimetres_are_noticed) {
+  const Camera camera = distorted();
+  DrawnPictures drawn = draw(pinhole_for(camera), [](double x, double) { return x < 0 ? 90.0 : 1.5; });
+  EXPECT_FALSE(says(from_pictures(camera, drawn.pictures()), "millimetres?"));
+  for (float& z : drawn.z) z *= 1000;
+  EXPECT_TRUE(says(from_pictures(camera, drawn.pictures()), "millimetres? expected metres"));
+}
+
 TEST(rendered_pictures, have_reflectivities_by_label_then_by_picture_and_a_notice_of_colour) {
   const Camera camera = distorted();
   const DrawnPictures drawn = draw(pinhole_for(camera), [](double, double) { return 1.0; });

@@ -65,6 +65,13 @@ std::string head(const std::string& name, const std::string& log, const Options&
   return out;
 }
 
+/// Each line behind "# ".
+std::string as_comment(const std::string& text) {
+  std::string out = "# ";
+  for (std::size_t i = 0; i < text.size(); ++i) out += text[i] == '\n' && i + 1 < text.size() ? std::string("\n# ") : std::string(1, text[i]);
+  return out;
+}
+
 /// An array of jobs, whatever runs it.
 struct JobArray {
   std::string name;  ///< letters, digits, - and _
@@ -166,7 +173,7 @@ int run_dataset_submit(const Options& options) {
   std::string merge = head("tofray-merge-" + name, (folder / "log/slurm-merge-%j.out").native(), options);
   merge += fmt::format("exec srun {} dataset merge {}\n", tool, set);
   if (options.shards.print_only) {
-    print(work);
+    print(work + as_comment("what merges behind it, as a script of its own: sbatch --dependency=afterany:JOB\n" + merge));
     return 0;
   }
   std::error_code fault;
