@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Sequence
 
 from ._pinhole import PinholeMethods
-from ._pose import PoseMethods
+from ._pose import PlacementMethods, PoseMethods
 from ._record import Record
 
 if TYPE_CHECKING:
@@ -2335,7 +2335,7 @@ class Pinhole(PinholeMethods):
         self.pixel_centre = pixel_centre
 
 
-class Placement(Record):
+class Placement(PlacementMethods):
     """Where an object is: by how much it is shifted and turned, as its position and rotation say it.
 
     Attributes

@@ -68,8 +68,9 @@ def test_what_is_computed_has_the_bytes_of_what_is_stored(merged: pathlib.Path) 
 def test_what_is_stored_as_whole_numbers_comes_as_what_these_stand_for(merged: pathlib.Path, tmp_path: pathlib.Path) -> None:
     text = SET.replace("samples: 20", "samples: 4\nas: {gt_z_m: {type: uint16, step: 0.5 mm}}")
     (tmp_path / "set.yaml").write_text(text, encoding="utf-8")
-    for word in (("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1"), ("run", tmp_path / "out"), ("merge", tmp_path / "out")):
-        tool(*word)
+    tool("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1")
+    tool("run", tmp_path / "out")
+    tool("merge", tmp_path / "out")
     stored, computed = tofray.open_dataset(tmp_path / "out"), tofray.open_dataset(tmp_path / "out", computed=True)
     exact = tofray.open_dataset(merged)
     for row in range(8):
@@ -114,8 +115,9 @@ def test_torch_has_the_same_batches_from_shards_and_from_the_plan(tmp_path: path
     torch = pytest.importorskip("torch")
     text = SET.replace("{choice: [MODE_9_5FPS_2000, MODE_5_45FPS_500]}", "MODE_5_45FPS_500")
     (tmp_path / "set.yaml").write_text(text, encoding="utf-8")
-    for word in (("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1"), ("run", tmp_path / "out"), ("merge", tmp_path / "out")):
-        tool(*word)
+    tool("plan", tmp_path / "set.yaml", "-o", tmp_path / "out", "--pilot", "1")
+    tool("run", tmp_path / "out")
+    tool("merge", tmp_path / "out")
     sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples/python"))
     try:
         stream = importlib.import_module("torch_samples").SetStream
