@@ -200,6 +200,6 @@ def test_the_fitted_power_is_that_of_the_recording() -> None:
 def test_types_are_right() -> None:
     pytest.importorskip("mypy")
     done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", os.devnull, "--config-file", str(ROOT / "tests/python/mypy.ini"),
-                           str(ROOT / "python/tofray"), *map(str, sorted(EXAMPLES.glob("*.py"))), str(ROOT / "tests/python")],
-                          cwd=ROOT / "python", capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(EXAMPLES)})
+                           str(ROOT / "python/tofray"), *map(str, sorted(EXAMPLES.glob("*.py"))), *map(str, sorted((ROOT / "examples/mujoco").glob("*.py"))), str(ROOT / "tests/python")],
+                          cwd=ROOT / "python", capture_output=True, text=True, env={**os.environ, "MYPYPATH": os.pathsep.join(map(str, (EXAMPLES, ROOT / "examples/mujoco")))})
     assert done.returncode == 0, done.stdout + done.stderr
