@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // A MuJoCo model seen by a time-of-flight camera: mujoco_film pendulum.xml eye
-// Physics goes on while a frame's raw frames are exposed, one after the other; what moves is at another place in each.
+// (or arm.xml hand). Physics goes on while a frame's raw frames are exposed, one after the other; what moves is at another place in each.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,8 +12,13 @@
 
 namespace {
 
+/// This stands for the robot's program: joints that have motors swing, each faster than the one before.
+void drive(const mjModel* model, mjData* data) {
+  for (int i = 0; i < model->nu; ++i) data->ctrl[i] = 0.2 * std::sin((3 + i) * data->time);
+}
+
 void step_until(const mjModel* model, mjData* data, double time_s) {
-  while (data->time < time_s - 0.5 * model->opt.timestep) mj_step(model, data);
+  while (data->time < time_s - 0.5 * model->opt.timestep) drive(model, data), mj_step(model, data);
   mj_forward(model, data);  // where things are now: mj_step leaves where they were
 }
 
@@ -38,7 +43,7 @@ void film(const char* file, const char* camera_name) {
   const std::unique_ptr<mjModel, void (*)(mjModel*)> model(mj_loadXML(file, nullptr, fault, sizeof fault), mj_deleteModel);
   if (model == nullptr) throw std::runtime_error(fault);
   const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(model.get()), mj_deleteData);
-  if (model->nv > 0) data->qvel[0] = 2;  // rad/s: something moves
+  if (model->nv > 0 && model->nu == 0) data->qvel[0] = 2;  // rad/s: something moves
 
   Mirror mirror(model.get(), camera_name, {{"wood", tofray::load_material("wood")}});
   const tofray::Camera camera = tofray::load_camera("pico-flexx", {.mode = "MODE_9_10FPS_1000"});

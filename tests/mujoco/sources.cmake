@@ -10,4 +10,9 @@ if(TOFRAY_MUJOCO_INCLUDE AND TOFRAY_MUJOCO_LIBRARY AND NOT CMAKE_CROSSCOMPILING)
   target_include_directories(test_mujoco SYSTEM PRIVATE ${TOFRAY_MUJOCO_INCLUDE})
   target_link_libraries(test_mujoco PRIVATE ${TOFRAY_MUJOCO_LIBRARY})
   target_compile_definitions(test_mujoco PRIVATE TOFRAY_WITH_MUJOCO)
+
+  # The example itself: python.mujoco compares its film with that of the bridge in Python.
+  add_executable(mujoco_film ${CMAKE_SOURCE_DIR}/examples/mujoco/main.cpp ${CMAKE_SOURCE_DIR}/examples/mujoco/mirror.cpp)
+  target_include_directories(mujoco_film SYSTEM PRIVATE ${TOFRAY_MUJOCO_INCLUDE})
+  target_link_libraries(mujoco_film PRIVATE tofray_files_library ${TOFRAY_MUJOCO_LIBRARY})
 endif()

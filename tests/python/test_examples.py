@@ -34,6 +34,7 @@ SAYS = {"first_frame": r"within (\d+\.\d) mm of the truth", "noise_against_dista
         "fit_light_power": r"recording (0\.\d+) \+- (0\.\d+) W \(simulated with (0\.\d+) W"}
 NEEDS = {"torch_loader": "torch", "fit_light_power": "scipy", "open3d_pictures": "open3d", "blender_pictures": "OpenImageIO"}
 PROGRAMS = {"blender_pictures": "blender"}
+BRIDGES = ("drake", "mujoco")   # whose tests are test_drake.py and test_mujoco.py
 
 
 def rays_of_open3d(folder: pathlib.Path) -> dict[str, str]:
@@ -200,6 +201,6 @@ def test_the_fitted_power_is_that_of_the_recording() -> None:
 def test_types_are_right() -> None:
     pytest.importorskip("mypy")
     done = subprocess.run([sys.executable, "-m", "mypy", "--cache-dir", os.devnull, "--config-file", str(ROOT / "tests/python/mypy.ini"),
-                           str(ROOT / "python/tofray"), *map(str, sorted(EXAMPLES.glob("*.py"))), str(ROOT / "tests/python")],
-                          cwd=ROOT / "python", capture_output=True, text=True, env={**os.environ, "MYPYPATH": str(EXAMPLES)})
+                           str(ROOT / "python/tofray"), *map(str, sorted(EXAMPLES.glob("*.py"))), *map(str, sorted(file for name in BRIDGES for file in (ROOT / "examples" / name).glob("*.py"))), str(ROOT / "tests/python")],
+                          cwd=ROOT / "python", capture_output=True, text=True, env={**os.environ, "MYPYPATH": os.pathsep.join(map(str, (EXAMPLES, *(ROOT / "examples" / name for name in BRIDGES))))})
     assert done.returncode == 0, done.stdout + done.stderr
