@@ -9,7 +9,8 @@ import json
 import sys
 from typing import TYPE_CHECKING, Any
 
-from ._errors import BadInput, Error
+from ._command_end import exit_code_of
+from ._errors import BadInput
 from ._fit_command import _finite, _setting
 
 if TYPE_CHECKING:
@@ -108,13 +109,4 @@ def _run(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str]) -> int:
     """Calibrates. Exit codes are those of ``tofray``."""
-    options = parser().parse_args(arguments)
-    try:
-        _run(options)
-    except (Error, ImportError) as fault:
-        text = str(fault) if isinstance(fault, Error) else f"error: {fault}"
-        if options.json:
-            print(json.dumps({"good": False, "error": text}))
-        print(text, file=sys.stderr)
-        return {"bad_input": 2, "io": 3, "limit": 4}.get(getattr(fault, "kind", "io"), 5)
-    return 0
+    return exit_code_of(_run, parser().parse_args(arguments))

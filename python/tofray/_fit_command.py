@@ -12,7 +12,8 @@ import sys
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from ._errors import BadInput, Error, IoError
+from ._command_end import exit_code_of
+from ._errors import BadInput, IoError
 
 if TYPE_CHECKING:
     from ._fit import Fit
@@ -150,15 +151,4 @@ def _run(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str]) -> int:
     """Fits. Exit codes are those of ``tofray``."""
-    options = parser().parse_args(arguments)
-    try:
-        _run(options)
-    except (Error, ImportError) as fault:
-        text = str(fault) if isinstance(fault, Error) else f"error: {fault}"
-        undetermined = type(fault).__name__ == "Undetermined"
-        if options.json:
-            print(json.dumps({"good": False, "error": text}))
-        print(text, file=sys.stderr)
-        kind = getattr(fault, "kind", "io")
-        return 1 if undetermined else {"bad_input": 2, "io": 3, "limit": 4}.get(kind, 5)
-    return 0
+    return exit_code_of(_run, parser().parse_args(arguments))

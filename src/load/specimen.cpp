@@ -23,7 +23,7 @@ bool is_kind(const std::string& word) { return std::find(kinds().begin(), kinds(
 /// The text of the file that is named, and the path that was opened.
 std::string text_of(const Node& name, const NamedBy& by, std::string& path) {
   const std::string what = in_quotes(name.text) + " is no calibration" + base::did_you_mean(name.text, kinds());
-  const std::string wanted = "expected exact, none, or a specimen's file, as `tofray calibrate` writes it";
+  const std::string wanted = "expected exact, none, or a specimen's file, as `python3 -m tofray calibrate` writes it";
   if (by.folder.empty())
     base::fail(name.place, what, wanted + "; this profile cannot name files: use --set camera.decoding.calibration=FILE");
   try {
@@ -43,7 +43,8 @@ Node specimen_in(const std::string& text, const std::string& path) {
   const bool is_one = out.kind == Node::Kind::map && out.find("frequencies") != nullptr && (kind == nullptr || kind->text == "specimen");
   if (!is_one)
     base::fail(out.place, "this is no calibration of a specimen",
-               "expected a map with `frequencies`, as `tofray calibrate phase` writes it; of another program's lens: `tofray calibration`");
+               "expected a map with `frequencies`, as `python3 -m tofray calibrate phase` writes it; of another program's lens: `tofray "
+               "calibration`");
   if (kind != nullptr) return out;
   out.keys.insert(out.keys.begin(), {"kind", out.place});
   Node word;

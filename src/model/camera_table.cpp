@@ -285,7 +285,7 @@ const Table& table_of<DecoderCalibration>() {
                                     .when<kind_of>(Kind::specimen)
                                     .required())
           .kind_may_be_missing()
-          .or_a_file("a specimen's file, as `tofray calibrate` writes it");
+          .or_a_file("a specimen's file, as `python3 -m tofray calibrate` writes it");
   return rows;
 }
 
