@@ -68,7 +68,8 @@ std::string head(const std::string& name, const std::string& log, const Options&
 /// Each line behind "# ".
 std::string as_comment(const std::string& text) {
   std::string out = "# ";
-  for (std::size_t i = 0; i < text.size(); ++i) out += text[i] == '\n' && i + 1 < text.size() ? std::string("\n# ") : std::string(1, text[i]);
+  for (std::size_t i = 0; i < text.size(); ++i)
+    out += text[i] == '\n' && i + 1 < text.size() ? std::string("\n# ") : std::string(1, text[i]);
   return out;
 }
 
