@@ -45,7 +45,7 @@ Json as_json(const std::vector<dataset::Quantised>& all) {
   Json out = Json::object();
   for (const dataset::Quantised& one : all) {
     Json about = Json::object();
-    put_step(about, one);
+    put_type(about, one);
     out.set(one.array, std::move(about));
   }
   return out;

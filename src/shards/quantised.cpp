@@ -49,7 +49,7 @@ std::string stored_type(const dataset::SetFile& set, const results::ArrayRow& ro
   return as == nullptr ? row.type.name() : fmt::format("{} in steps of {:.6g}", as->type.name(), as->step);
 }
 
-void put_step(files::Json& about, const dataset::Quantised& as) {
+void put_type(files::Json& about, const dataset::Quantised& as) {
   about.set("dtype", as.type.name()).set("step", as.step).set("no_value", static_cast<std::int64_t>(as.no_value()));
 }
 

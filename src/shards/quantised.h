@@ -22,7 +22,7 @@ const dataset::Quantised* quantised(const dataset::SetFile& set, const std::stri
 std::string stored_type(const dataset::SetFile& set, const results::ArrayRow& row);
 
 /// What stands in a sample's JSON beside unit and shape.
-void put_step(files::Json& about, const dataset::Quantised& as);
+void put_type(files::Json& about, const dataset::Quantised& as);
 
 /// Element i of an array that a sample stores. @param about  what its JSON says of it, or none
 double stored_number(const files::NpyArray& array, std::size_t i, const files::Json* about);

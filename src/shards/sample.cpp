@@ -167,14 +167,16 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
       continue;
     }
     Json about = Json::object();
-    about.set("unit", row.unit).set("dtype", one.type.name()).set("shape", Json::list(one.shape));
+    about.set("unit", row.unit);
     std::string bytes;
     if (const dataset::Quantised* as = quantised(scenes_.set(), one.name)) {
       bytes = quantised_npy(one, *as, scenes_.source(sample, view));
-      put_step(about, *as);
+      put_type(about, *as);
     } else {
       bytes = files::npy_header(one.type, one.shape).append(one.bytes);
+      about.set("dtype", one.type.name());
     }
+    about.set("shape", Json::list(one.shape));
     arrays.set(one.name, std::move(about));
     out.members.push_back({one.name + std::string(npy), std::move(bytes)});
   }

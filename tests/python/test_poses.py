@@ -38,7 +38,7 @@ def test_a_placement_comes_of_a_matrix() -> None:
     placement = tofray.Placement.from_matrix(matrix)
     assert isinstance(placement, tofray.Placement) and placement.position == (1, 2, 3)
     assert placement.rotation.quaternion == tofray.Pose.from_matrix(matrix).quaternion
-    with pytest.raises(tofray.BadInput):
+    with pytest.raises(tofray.Error):
         tofray.Placement.from_matrix(2 * matrix)
 
 

@@ -155,7 +155,7 @@ class Oddities {
     for (const SceneFinding& one : scene_report(scene, camera).findings) {
       if (!one.warning) continue;
       const std::string name = one.objects.empty() ? "" : scene.objects[static_cast<std::size_t>(one.objects.front())].name;
-      Oddity& same = all_.try_emplace({one.kind, name}, Oddity{sample, one}).first->second;
+      Oddity& same = all_.try_emplace({one.kind, name}, Oddity{sample, one, {}}).first->second;
       if (same.samples.empty() || same.samples.back() != sample) same.samples.push_back(sample);
     }
     ++looked_at_;
