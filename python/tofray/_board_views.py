@@ -53,9 +53,11 @@ def _folder(path: str) -> Any:
     import numpy as np
 
     try:
-        files = [os.path.join(path, one) for one in sorted(os.listdir(path)) if one.endswith((".npz", ".png"))]
+        names = sorted(os.listdir(path))
     except OSError as fault:
         raise IoError(f"{path}: error: it cannot be read\n  {fault.strerror}") from None
+    frames = [one for one in names if one.endswith(".npz")]  # `render` puts pictures for the eye beside them
+    files = [os.path.join(path, one) for one in frames or names if one.endswith((".npz", ".png"))]
     if not files:
         raise BadInput(f"{path}: error: there is no npz and no png file in this folder\n  expected frames of one view of the board")
     images = [_read(one) for one in files]
@@ -83,11 +85,11 @@ def _image(given: Any, number: int) -> tuple[str, Any]:
 def views_of(images: Iterable[Any], camera: Camera, board: tuple[int, int]) -> list[View]:
     """Finds the board in every image, and refuses an image that it is not in."""
     expected = (int(camera.sensor.height), int(camera.sensor.width))
-    out = []
-    for number, given in enumerate(images):
-        name, image = _image(given, number)
+    out, read = [], [_image(given, number) for number, given in enumerate(images)]
+    for name, image in read:
         if image.shape != expected:
             raise BadInput(f"{name}: error: the image is not of the camera's sensor\n  got {_size(image)}, expected {expected[1]} x {expected[0]}, neither binned nor a part")
+    for name, image in read:
         corners = corners_of(image, *board)
         if corners is None:
             raise BadInput(f"{name}: error: no board of {board[0]} x {board[1]} inner corners is found in it\n"

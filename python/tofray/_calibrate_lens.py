@@ -209,10 +209,11 @@ def calibrate_lens(camera: Camera, images: Iterable[Frame | str | os.PathLike[st
     """
     points = _board(board, float(square_m))
     wanted = _model_of(camera, model)
-    views = views_of(images, camera, board)
-    kept_out = _held_out_of(len(views), held_out)
-    if len(views) - len(kept_out) < 4:
-        raise BadInput(f"error: too few images\n  got {len(views)}, {len(kept_out)} of them held out; expected four or more, such as 20, the board turned to all sides")
+    given = list(images)
+    kept_out = _held_out_of(len(given), held_out)
+    if len(given) - len(kept_out) < 4:
+        raise BadInput(f"error: too few images\n  got {len(given)}, {len(kept_out)} of them held out; expected four or more, such as 20, the board turned to all sides")
+    views = views_of(given, camera, board)
     bundle = Bundle(wanted, camera, points, [one.corners for one in views])
     bundle.solve()
     _determined(bundle)
