@@ -68,20 +68,16 @@ def places(of: Any) -> Any:
 
 @functools.lru_cache(maxsize=None)
 def poses(count: int = 16) -> list[Any]:
-    """Boards within the image that reach into each of its corners by turns."""
-    random = np.random.default_rng(1)
+    """Boards within the image that reach its rim."""
     out: list[Any] = []
-    while len(out) < count:
-        i = len(out)
-        aside = random.uniform(-0.15, 0.15), random.uniform(-0.12, 0.12)
-        one = pose(random.integers(1000), random.uniform(20, 45), random.uniform(0.3, 0.55), aside, random.uniform(12, 32))
-        at = places(one)
-        rim = min(at.min(), (WIDTH - 1 - at[:, 0]).min(), (HEIGHT - 1 - at[:, 1]).min())
-        ways = [at[ACROSS - 2] - at[0], at[-1] - at[ACROSS - 2], at[1 - ACROSS] - at[0], at[-1] - at[1 - ACROSS]]
-        oblique = all(12 < math.degrees(math.atan2(way[1], way[0])) % 90 < 78 for way in ways)   # 8 x 8 samples of a pixel are steps along it else
-        corner = ((0, 0), (WIDTH - 1, HEIGHT - 1), (WIDTH - 1, 0), (0, HEIGHT - 1))[i % 4]
-        if 3 < rim and oblique and np.hypot(*(at - corner).T).min() < 30:
-            out.append(one)
+    for seed in range(30):
+        random = np.random.default_rng(seed)
+        for i in range(20):
+            tilt, distance, far, roll = random.uniform(15, 40), random.uniform(0.3, 0.6), random.uniform(0.7, 1), random.uniform(12, 32)
+            one = pose(i, tilt, distance, (0.12 * far * (1, 1, -1, -1, 0)[i % 5], 0.09 * far * (1, -1, -1, 1, 0)[i % 5]), roll)
+            at = places(one)
+            if 3 < min(at.min(), (WIDTH - 1 - at[:, 0]).min(), (HEIGHT - 1 - at[:, 1]).min()) < 8 and len(out) < count:
+                out.append(one)
     return out
 
 
