@@ -30,6 +30,10 @@ if TYPE_CHECKING:
         calibrate_phase as calibrate_phase,
         calibrate_temperature as calibrate_temperature,
     )
+    from ._calibrate_lens import (
+        LensCalibration as LensCalibration,
+        calibrate_lens as calibrate_lens,
+    )
     from ._dataset import (
         Dataset as Dataset,
         Drawn as Drawn,
@@ -207,6 +211,7 @@ _HOME = {
     "_arrays": ("Depth", "Raw", "Truth"),
     "_budget": ("Budget", "budget"),
     "_calibrate": ("SpecimenCalibration", "calibrate_phase", "calibrate_temperature"),
+    "_calibrate_lens": ("LensCalibration", "calibrate_lens"),
     "_dataset": ("Dataset", "Drawn"),
     "_errors": ("Error",),
     "_fit": ("Fit", "FitParameter", "fit"),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""``python3 -m tofray calibrate phase|temperature …``: what decoding has to know of a specimen."""
+"""``python3 -m tofray calibrate phase|temperature|lens …``: what has to be known of a specimen."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ _HELP = """examples:
 walls: a matt one that faces the camera and fills its image; of each a folder of two or more npz files with raw frames
 (tofray render --arrays +raw). Distances are z, where the optical axis meets the wall, at uneven steps over c/2Nf or more
 (N reference phases; of an odd N half as much).
+calibrate lens --help: the lens, out of images of a chessboard.
 The file goes into decoding.calibration; `tofray calibration` is another command: it makes a profile's lens of an OpenCV or ROS file.
 exit codes: 0, calibrated; 2, bad input; 3, a file or a package is missing."""
 
@@ -45,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
     out = argparse.ArgumentParser(
         prog="python3 -m tofray calibrate", epilog=_HELP, formatter_class=argparse.RawDescriptionHelpFormatter,
         description="what decoding has to know of one specimen of a camera, out of its recordings of walls:\n"
-                    "phase: offset, wiggling and each pixel's phase, from known distances; temperature: the drift of the range")
+                    "phase: offset, wiggling and each pixel's phase, from known distances; temperature: the drift of the range; lens has options of its own")
 
     def add(*names: str, help: str, **words: Any) -> None:
         out.add_argument(*names, help=help, **words)
@@ -109,4 +110,8 @@ def _run(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str]) -> int:
     """Calibrates. Exit codes are those of ``tofray``."""
+    if arguments[:1] == ["lens"]:
+        from ._lens_command import main as lens
+
+        return lens(arguments[1:])
     return exit_code_of(_run, parser().parse_args(arguments))
