@@ -98,7 +98,7 @@ def test_a_class_describes_what_it_is_made_of(name: str) -> None:
     kind = dict(CLASSES)[name]
     said = sections(doc_of(kind))
     known = described(said.get("Parameters", []) + said.get("Attributes", []))
-    if name not in ("Error", "DeviceArray", "DeviceFrames", "View"):  # which nobody makes
+    if name not in ("Error", "DeviceArray", "DeviceFrames", "LensCalibration", "View"):  # which nobody makes
         stub = (pathlib.Path(tofray.__file__).parent / "_native.pyi").read_text(encoding="utf-8")
         native = kind.__module__ == "tofray._native" and re.search(rf"^class {name}:.*?def __init__\(\s*self,(.*?)\) -> None", stub, re.M | re.S)
         words = re.findall(r"(\w+):", native[1]) if native else list(inspect.signature(kind).parameters)
