@@ -33,7 +33,7 @@ class LensCalibration:
     Attributes
     ----------
     model : "plumb_bob", "rational_polynomial" or "equidistant"
-    values, errors : dict of str to float
+    values, errors : dict of str to float, px or 1
         fx, fy, cx and cy in pixels, then the model's coefficients, and their standard errors.
     size : tuple of int
         Width and height of the images in pixels.
