@@ -131,6 +131,14 @@ def test_torch_has_the_same_batches_from_shards_and_from_the_plan(tmp_path: path
     assert sorted(float(raw.sum()) for raws, _ in parts for raw in raws) == sorted(float(raw.sum()) for raws, _ in both[0] for raw in raws)
 
 
+def test_check_says_what_is_seldom_meant_and_in_how_many_samples(tmp_path: pathlib.Path) -> None:
+    ball = "{sphere: {name: ball, center: [0, 0, {uniform: [900 m, 1100 m]}], radius: 200 m, reflectivity: 0.5}}"
+    (tmp_path / "set.yaml").write_text(f"name: far\nsamples: 6\nscene:\n  camera: {{profile: pico-flexx}}\n  objects: [{ball}]\n", encoding="utf-8")
+    done = subprocess.run([str(TOOL), "dataset", "check", str(tmp_path / "set.yaml")], capture_output=True, text=True)
+    assert done.returncode == 0 and "good in 6 that were drawn" in done.stdout
+    assert "warning: " in done.stderr and "so in 6 of 6 samples that were looked at, first in 0; " in done.stderr, done.stderr
+
+
 def test_a_hole_is_no_sample(merged: pathlib.Path, tmp_path: pathlib.Path) -> None:
     shutil.copytree(merged, tmp_path / "out")
     (tmp_path / "out/shards/000/000002.json").unlink()

@@ -155,7 +155,7 @@ class Oddities {
     for (const SceneFinding& one : scene_report(scene, camera).findings) {
       if (!one.warning) continue;
       const std::string name = one.objects.empty() ? "" : scene.objects[static_cast<std::size_t>(one.objects.front())].name;
-      Oddity& same = all_.try_emplace({one.kind, name}, Oddity{sample, one, {}}).first->second;
+      Oddity& same = all_.try_emplace({one.kind, name}, Oddity{one, {}}).first->second;
       if (same.samples.empty() || same.samples.back() != sample) same.samples.push_back(sample);
     }
     ++looked_at_;
@@ -163,12 +163,12 @@ class Oddities {
   void tell(Remarks& remarks) const {
     for (const auto& [key, one] : all_)
       remarks.tell(fmt::format("warning: {}\n  so in {} of {} samples that were looked at, first in {}; {}\n",
-                               base::printable(one.said.what), one.samples.size(), looked_at_, one.first, base::printable(one.said.more)));
+                               base::printable(one.said.what), one.samples.size(), looked_at_, one.samples.front(),
+                               base::printable(one.said.more)));
   }
 
  private:
   struct Oddity {
-    std::uint64_t first = 0;
     SceneFinding said;
     std::vector<std::uint64_t> samples;
   };
