@@ -77,8 +77,20 @@ test("the search finds keys by the beginnings of their words, the nearest first,
   }
   await search.fill("qqq");
   await page.getByText("No key has “qqq”.").waitFor();
+  assert.equal(await page.getByText("Did you mean").count(), 0);   // nothing is near
+  for (const [typed, near, key] of [["ilumination power", "illumination power", "camera.illumination.0.power"], ["f_nubmer", "f number", f_number]]) {
+    await search.fill(typed);
+    await page.getByText("Did you mean").getByRole("button", { name: near, exact: true }).click();
+    await page.waitForFunction((wanted) => document.querySelector(".control")?.dataset.key === wanted, key);
+  }
   await search.press("Escape");
   await page.locator(".group").first().waitFor();
+  assert.equal(await page.evaluate(() => document.activeElement?.id), "search");
+  await search.press("Escape");   // nothing to take back: letters act again
+  assert.ok(await page.evaluate(() => document.activeElement === document.body));
+  await page.keyboard.press("?");
+  await page.getByRole("dialog", { name: "Keys" }).waitFor();
+  await page.keyboard.press("?");
 });
 
 test("a field takes a value with its unit; what it refuses is told beside it in the command's words, and the value in force stays", async () => {

@@ -97,7 +97,7 @@ function Sliders({ row, side, text, off, said }: { row: Row; side: Side; text: s
   );
 }
 
-/** Text that is sent with Enter, or when another field is gone to; Escape takes it back. */
+/** Text that is sent with Enter, or when another field is gone to; Escape takes it back, or leaves the field. */
 function Field({ row, side, text, fault, id, off, described, range }: { row: Row; side: Side; text: string; fault: Fault | undefined; id: string; off: boolean; described: string; range: string }) {
   const typed = useSignal<string | undefined>(undefined);
   const sent = useSignal<string | undefined>(undefined);
@@ -115,9 +115,11 @@ function Field({ row, side, text, fault, id, off, described, range }: { row: Row
       onChange={(event) => send(event.currentTarget.value)}
       onKeyDown={(event) => {
         if (event.key !== "Escape") return;
+        const untouched = typed.value === undefined && fault === undefined;
         typed.value = sent.value = undefined;
         forget_fault(side, row.key);
         event.currentTarget.value = text;
+        if (untouched) event.currentTarget.blur();
       }} />
   );
 }

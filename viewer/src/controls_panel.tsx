@@ -6,7 +6,7 @@ import { Control, Key } from "./control";
 import { set_seed, set_state, unset_key } from "./edit";
 import { future, past, redo, undo } from "./history";
 import type { Override, Row, Side } from "./protocol";
-import { found } from "./search";
+import { found, meant } from "./search";
 import { cannot, controls, edited, hello, link, open_groups, other, search, state } from "./store";
 
 const most_found = 40;
@@ -122,9 +122,11 @@ function Tree({ rows, side }: { rows: readonly Row[]; side: Side }) {
 
 function Found({ rows, side }: { rows: readonly Row[]; side: Side }) {
   const all = found(rows, search.value);
+  const other_words = all.length === 0 ? meant(rows, search.value) : undefined;
   return (
     <section aria-label="Found">
       <p class="faint" role="status">{all.length === 0 ? `No key has “${search.value}”.` : `${all.length} found${all.length > most_found ? `, the first ${most_found}` : ""}`}</p>
+      {other_words !== undefined && <p>Did you mean <button type="button" class="link" onClick={() => (search.value = other_words)}>{other_words}</button>?</p>}
       {all.slice(0, most_found).map((row) => <Control key={`${side} ${row.key}`} row={row} label={row.key} />)}
     </section>
   );
@@ -165,7 +167,11 @@ export function ControlsPanel() {
       <div class="controls-head">
         <Sides />
         <input id="search" type="search" value={search.value} onInput={(event) => (search.value = event.currentTarget.value)} autoComplete="off" spellcheck={false}
-          aria-label="Search the controls" placeholder="Search: f num" onKeyDown={(event) => event.key === "Escape" && (search.value = "")} />
+          aria-label="Search the controls" placeholder="Search: f num" onKeyDown={(event) => {
+            if (event.key !== "Escape") return;
+            if (search.value === "") event.currentTarget.blur();
+            search.value = "";
+          }} />
       </div>
       {fixed !== undefined && <p class="hint" data-fixed>{fixed}</p>}
       {(fixed === undefined || overrides_of(side).length > 0) && <Changed side={side} />}

@@ -12,6 +12,7 @@ export function Help() {
         {keys.map((key) => (
           <div key={key.said}><dt><kbd>{key.said}</kbd></dt><dd>{key.does}</dd></div>
         ))}
+        <div><dt><kbd>Escape</kbd></dt><dd>in a field: takes back what was typed, and then leaves the field, so that letters act again</dd></div>
       </dl>
       <h2>Keys in a 3D pane</h2>
       <dl class="keys space-keys">

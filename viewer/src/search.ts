@@ -32,3 +32,35 @@ export function found(rows: readonly Row[], text: string): Row[] {
   }
   return graded.sort((a, b) => a.mark - b.mark).map((one) => one.row);
 }
+
+/** How many letters are to be typed, left out, changed or exchanged with their neighbour to make one word of the other. */
+function letters_apart(a: string, b: string): number {
+  let [before, last]: number[][] = [[], Array.from({ length: b.length + 1 }, (_, j) => j)];
+  for (let i = 1; i <= a.length; ++i) {
+    const now = [i];
+    for (let j = 1; j <= b.length; ++j) {
+      let least = Math.min(last![j]! + 1, now[j - 1]! + 1, last![j - 1]! + (a[i - 1] === b[j - 1] ? 0 : 1));
+      if (i > 1 && j > 1 && a[i - 1] === b[j - 2] && a[i - 2] === b[j - 1]) least = Math.min(least, before![j - 2]! + 1);
+      now.push(least);
+    }
+    [before, last] = [last!, now];
+  }
+  return last![b.length]!;
+}
+
+/** The search that may have been meant where nothing is found: each word that begins none of the keys' words gives way to the nearest of them, which is
+ *  some letters apart, a third of them at most. undefined where there is none, or where nothing would be found by it, either. */
+export function meant(rows: readonly Row[], text: string): string | undefined {
+  const known = [...new Set(rows.flatMap((row) => words_of(row.key)))];
+  const words = words_of(text).map((word) => {
+    if (known.some((one) => one.startsWith(word))) return word;
+    let [nearest, least] = ["", Math.floor(word.length / 3) + 1];
+    for (const one of known) {
+      const apart = letters_apart(word, one);
+      if (apart < least) [nearest, least] = [one, apart];
+    }
+    return nearest === "" ? word : nearest;
+  });
+  const other = words.join(" ");
+  return found(rows, other).length > 0 && found(rows, text).length === 0 ? other : undefined;
+}
