@@ -40,6 +40,7 @@ struct DatasetPlan {
   std::uint64_t pixels = 0, valid = 0;     ///< of all its frames, and those with depth
   std::uint64_t pilot = 0;                 ///< samples that it has
   double least_valid = 1, most_valid = 0;  ///< shares of one view's pixels
+  std::uint64_t peak_bytes = 0;            ///< most memory that this process has taken, with as many threads as were asked for
 };
 
 /// Looks at the set, computes a pilot and writes plan.json. Where there is a plan already: the same one is left as it is, one with fewer samples is extended (shards

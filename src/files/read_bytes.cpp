@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "files/descriptor.h"
 #include "tofray/error.h"
@@ -37,9 +38,10 @@ std::string read_all(int file, std::size_t size, const std::string& path) {
 
 }  // namespace
 
-std::string read_bytes(const std::string& path, std::size_t most) {
+std::optional<std::string> read_bytes_if_there(const std::string& path, std::size_t most) {
   // O_NONBLOCK: a pipe that nobody writes to must not hold us up
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (file.number() < 0 && errno == ENOENT) return {};
   if (file.number() < 0) fail(path, errno);
   struct stat status {};
   if (fstat(file.number(), &status) != 0) fail(path, errno);
@@ -49,6 +51,12 @@ std::string read_bytes(const std::string& path, std::size_t most) {
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most) throw Error(ErrorKind::limit, fmt::format("{}: error: the file has {} bytes, more than {}", path, size, most));
   return read_all(file.number(), size, path);
+}
+
+std::string read_bytes(const std::string& path, std::size_t most) {
+  std::optional<std::string> bytes = read_bytes_if_there(path, most);
+  if (!bytes) fail(path, ENOENT);
+  return std::move(*bytes);
 }
 
 }  // namespace tofray::files

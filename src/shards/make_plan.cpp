@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <ctime>
@@ -105,6 +106,13 @@ double processor_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Most memory that this process has taken.
+std::uint64_t peak_bytes() {
+  rusage now{};
+  ::getrusage(RUSAGE_SELF, &now);
+  return static_cast<std::uint64_t>(now.ru_maxrss) * 1024;
+}
+
 Pilot fly(const dataset::Scenes& scenes, const PlanRequest& request) {
   const dataset::SetFile& set = scenes.set();
   const std::uint64_t count = std::clamp<std::uint64_t>(request.pilot, 1, set.samples);
@@ -207,6 +215,7 @@ DatasetPlan plan(const PlanRequest& request) {
   DatasetPlan out = shown(made, scenes);
   out.sample_seconds = pilot.seconds, out.pixels = pilot.pixels, out.valid = pilot.valid;
   out.pilot = pilot.samples, out.least_valid = pilot.least_valid, out.most_valid = pilot.most_valid;
+  out.peak_bytes = peak_bytes();
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/in_order.h"
 #include "base/text.h"
 #include "files/atomic_file.h"
 #include "files/json.h"
@@ -69,12 +70,12 @@ class Merger {
         split_(index_, worker_.folder(), "split", {rows_}, std::uint8_t{}),
         set_(dataset::parse_set(plan.set_text, plan.set_name)) {}
 
-  void add(const Record& record, const std::string& text) {
+  void add(const Record& record, const std::string& sha256) {
     ++result.shards, result.samples += record.count - record.holes.size(), result.holes += record.holes.size(),
         result.bytes += record.bytes;
     statistics_.add(record.statistics);
     const std::string tar = tar_name(record.shard);
-    sums_ += sum_line(files::sha256_hex(text), record_name(record.shard)) + sum_line(record.sha256, tar);
+    sums_ += sum_line(sha256, record_name(record.shard)) + sum_line(record.sha256, tar);
     list_.push(
         Json::object().set("url", tar).set("nsamples", static_cast<std::uint64_t>(record.samples.size())).set("filesize", record.bytes));
     for (const Record::Hole& hole : record.holes) holes_.emplace_back(hole.sample, hole.why);
@@ -190,6 +191,25 @@ class Merger {
   std::map<std::string, std::pair<std::string, std::uint64_t>> inputs_;
 };
 
+/// A record, and the SHA-256 of its file.
+struct Read {
+  Record record;
+  std::string sha256;
+};
+
+/// None where there is no such file. @throws Error (bad_input) where it is of another plan
+std::optional<Read> read_fitting(const fs::path& folder, const Plan& plan, std::uint64_t shard) {
+  const std::optional<std::string> text = read_record_text(folder, shard);
+  if (!text) return {};
+  const std::string where = (folder / record_name(shard)).native();
+  Read out{parse_record(*text, where), files::sha256_hex(*text)};
+  if (!out.record.fits(plan, shard))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: error: this record is of another plan\n  `tofray dataset run {}` makes the shard again", where,
+                            base::printable(folder.native())));
+  return out;
+}
+
 }  // namespace
 
 MergeResult merge(const fs::path& folder, bool partial) {
@@ -205,17 +225,14 @@ MergeResult merge(const fs::path& folder, bool partial) {
               base::printable(folder.native()), missing.size(), plan.shards(), missing[0], base::printable(folder.native())));
   }
   Merger merger(folder, plan);
-  for (std::uint64_t shard = 0; shard < plan.shards(); ++shard) {
-    const std::optional<Record> record = read_record(folder, shard);
-    if (record && !record->fits(plan, shard))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: error: this record is of another plan\n  `tofray dataset run {}` makes the shard again",
-                              (folder / record_name(shard)).native(), base::printable(folder.native())));
-    if (record)
-      merger.add(*record, record_text(*record));
-    else
-      merger.skip(shard);
-  }
+  base::in_order<std::optional<Read>>(
+      plan.shards(), 0, [&](std::uint64_t shard) { return read_fitting(folder, plan, shard); },
+      [&](std::uint64_t shard, const std::optional<Read>& read) {
+        if (read)
+          merger.add(read->record, read->sha256);
+        else
+          merger.skip(shard);
+      });
   merger.finish();
   return merger.result;
 }

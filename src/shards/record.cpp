@@ -104,11 +104,14 @@ Record parse_record(std::string_view text, const std::string& where) {
   return out;
 }
 
+std::optional<std::string> read_record_text(const std::filesystem::path& folder, std::uint64_t shard) {
+  return files::read_bytes_if_there((folder / record_name(shard)).native(), most_record_bytes);
+}
+
 std::optional<Record> read_record(const std::filesystem::path& folder, std::uint64_t shard) {
-  const std::filesystem::path path = folder / record_name(shard);
-  std::error_code fault;
-  if (!std::filesystem::exists(path, fault)) return {};
-  return parse_record(files::read_bytes(path.native(), most_record_bytes), path.native());
+  const std::optional<std::string> text = read_record_text(folder, shard);
+  if (!text) return {};
+  return parse_record(*text, (folder / record_name(shard)).native());
 }
 
 bool is_complete(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shard) {

@@ -44,6 +44,8 @@ struct Record {
 std::string record_text(const Record& record);
 /// @throws Error (bad_input) where it is no record
 Record parse_record(std::string_view text, const std::string& where);
+/// The file's bytes; none where there is no such file. @throws Error (io)
+std::optional<std::string> read_record_text(const std::filesystem::path& folder, std::uint64_t shard);
 /// None where there is no such file. @throws Error (io, bad_input)
 std::optional<Record> read_record(const std::filesystem::path& folder, std::uint64_t shard);
 /// Whether a shard is there: its record, which fits the plan, and a tar of its size.

@@ -106,6 +106,103 @@ TEST(killed, before_any_call_that_changes_a_file_and_run_again_leaves_what_an_un
   }
 }
 
+/// A run whose files lie on a network of which one call fails ends well, or with a word on it, and another run makes the rest.
+TEST(network, that_fails_at_any_call_loses_nothing_and_leaves_no_record_without_its_bytes) {
+  if (with_sanitizers) GTEST_SKIP() << "sanitizers have to be loaded first";
+  const SmallSet set;
+  const Arguments arguments{"dataset", "run", set.out().native(), "--shards", "1,4", "--threads", "2", "--quiet"};
+  const auto with = [&](const char* fault, long at) {
+    return [fault, at, under = set.out().native(), count = (set.folder / "count").native()] {
+      ::setenv("LD_PRELOAD", TOFRAY_NETWORK_FAULTS, 1), ::setenv("FAULT", fault, 1), ::setenv("FAULT_UNDER", under.c_str(), 1);
+      ::setenv("FAULT_COUNT", count.c_str(), 1);
+      if (at != 0) ::setenv("FAULT_AT", std::to_string(at).c_str(), 1);
+    };
+  };
+  struct Case {
+    const char* fault;
+    bool ends_well;      ///< whatever call it is
+    const char* reason;  ///< in the words of a run that does not
+  };
+  for (const Case& one : {Case{"link_done", true, ""}, Case{"lockless", true, ""}, Case{"unseen", true, ""},
+                          Case{"link_lost", false, "Input/output error"}, Case{"stale", false, "Stale file handle"},
+                          Case{"close_full", false, "No space left on device"}, Case{"sync_quota", false, "Disk quota exceeded"}}) {
+    // −1 is no call at all: how many there are. 0: all of them.
+    long calls = 1;
+    for (long at = -1; at <= calls; at += at > 0 && !at_length ? std::max(1L, calls / 8) : 1) {
+      SCOPED_TRACE(std::string(one.fault) + " at call " + std::to_string(at) + " of " + std::to_string(calls));
+      if (one.fault != std::string("unseen")) fs::remove_all(set.out() / "shards");  // else: another machine has made them
+      const Result result = run(arguments, with(one.fault, at));
+      if (at < 0) {
+        calls = std::stol(content(set.folder / "count"));
+        EXPECT_GE(calls, 1);
+        EXPECT_EQ(result.code, 0) << result.err;
+      } else if (one.ends_well) {
+        EXPECT_EQ(result.code, 0) << result.err;
+      } else if (result.code != 0) {
+        EXPECT_EQ(result.code, 3) << result.err;
+        EXPECT_TRUE(has(result.err, one.reason) && has(result.err, set.out().native())) << result.err;
+      } else {
+        EXPECT_NE(at, 0) << "no call of all was of any use";
+      }
+      for (const std::uint64_t shard : {1, 4}) {
+        const fs::path record = set.out() / shards::record_name(shard);
+        if (!fs::exists(record)) continue;
+        EXPECT_EQ(content(record), undisturbed().at(shards::record_name(shard)));
+        EXPECT_EQ(content(set.out() / shards::tar_name(shard)), undisturbed().at(shards::tar_name(shard)));
+      }
+      EXPECT_EQ(run(arguments).code, 0);
+      for (const std::uint64_t shard : {1, 4}) {
+        EXPECT_EQ(content(set.out() / shards::tar_name(shard)), undisturbed().at(shards::tar_name(shard)));
+        EXPECT_EQ(content(set.out() / shards::record_name(shard)), undisturbed().at(shards::record_name(shard)));
+      }
+    }
+  }
+}
+
+/// Peak of a run's memory, in kB.
+long peak_of_a_run(const char* samples) {
+  SetText text;
+  text.samples = samples;
+  const SmallSet set(text, 50);
+  const pid_t child =
+      start({"dataset", "run", set.out().native(), "--threads", "2", "--quiet"}, set.folder / "stdout", set.folder / "stderr");
+  int status = 0;
+  rusage used{};
+  while (::wait4(child, &status, 0, &used) < 0 && errno == EINTR) {}
+  EXPECT_EQ(status, 0) << content(set.folder / "stderr");
+  return used.ru_maxrss;
+}
+
+TEST(memory, of_a_run_does_not_grow_with_the_samples_that_it_made) {
+  if (with_sanitizers) GTEST_SKIP() << "sanitizers keep what is freed";
+  const long few = peak_of_a_run("100"), many = peak_of_a_run(at_length ? "20000" : "2000");
+  EXPECT_LT(many, few + 4000) << "kB; " << few << " of 100 samples";
+}
+
+TEST(memory, that_lacks_is_said_and_another_run_makes_the_rest) {
+  if (with_sanitizers) GTEST_SKIP() << "sanitizers need the address space";
+  const SmallSet set;
+  const Arguments arguments{"dataset", "run", set.out().native(), "--threads", "1", "--quiet"};
+  int failed = 0, good = 0;
+  // Less than the program itself takes, and the kernel ends it before it begins.
+  for (auto most = static_cast<rlim_t>(fs::file_size(TOFRAY_TOOL)) + 25'000'000; most < 400'000'000 && good < 2; most += 4'000'000) {
+    fs::remove_all(set.out() / "shards");
+    const Result result = run(arguments, [most] {
+      const rlimit limit{most, most};
+      ::setrlimit(RLIMIT_AS, &limit);
+    });
+    good += result.code == 0 ? 1 : 0;
+    if (result.code == 0 || (result.code == 127 && has(result.err, "shared librar"))) continue;  // the loader's word: it never began
+    EXPECT_EQ(result.code, 4) << most << ": " << result.err;
+    EXPECT_TRUE(has(result.err, "out of memory") || has(result.err, "error: the system refuses ")) << most << ": " << result.err;
+    EXPECT_EQ(under_way(set.out()), 0U) << most;
+    ++failed;
+  }
+  EXPECT_EQ(good, 2);
+  EXPECT_GT(failed, 0);
+  expect_whole_after_a_run(set, "with all the memory that there is");
+}
+
 TEST(killed, politely_ends_within_the_sample_and_leaves_no_part_of_a_file) {
   const auto whole = time_of_a_run();
   out_test::Random random(8);

@@ -3,7 +3,10 @@
 # Some of the tests drive the real program.
 add_dependencies(test_shards tofray)
 target_compile_definitions(test_shards PRIVATE TOFRAY_TOOL="$<TARGET_FILE:tofray>")
-add_library(kill_at_call MODULE ${folder}/kill_at_call.cpp)
-target_link_libraries(kill_at_call PRIVATE ${CMAKE_DL_LIBS})
-add_dependencies(test_shards kill_at_call)
-target_compile_definitions(test_shards PRIVATE TOFRAY_KILL_AT_CALL="$<TARGET_FILE:kill_at_call>")
+foreach(shim kill_at_call network_faults)   # what is loaded before the C library
+  add_library(${shim} MODULE ${folder}/${shim}.cpp)
+  target_link_libraries(${shim} PRIVATE ${CMAKE_DL_LIBS})
+  add_dependencies(test_shards ${shim})
+  string(TOUPPER ${shim} upper)
+  target_compile_definitions(test_shards PRIVATE TOFRAY_${upper}="$<TARGET_FILE:${shim}>")
+endforeach()

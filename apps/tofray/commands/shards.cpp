@@ -100,6 +100,7 @@ int run_dataset_plan(const Options& options) {
         .set("sample_bytes", plan.sample_bytes);
     json.set("bytes", bytes).set("sample_seconds", plan.sample_seconds).set("core_seconds", core_seconds).set("valid", valid);
     json.set("pilot", plan.pilot).set("least_valid", plan.least_valid).set("most_valid", plan.most_valid);
+    json.set("peak_bytes", plan.peak_bytes);
     print(files::json_text(remarks.put(json), 2) + "\n");
     return 0;
   }
@@ -110,9 +111,10 @@ int run_dataset_plan(const Options& options) {
                       set_size_text(static_cast<double>(plan.sample_bytes)));
   if (plan.found == DatasetPlan::Found::nothing)
     text += fmt::format(
-        "  time     {} of one core ({:.3g} ms a sample)\n  valid    {:.1f} % of the pixels of {} looked at ({:.0f} to {:.0f} %)\n",
-        core_time_text(core_seconds), 1000 * plan.sample_seconds, 100 * valid, counted(plan.pilot, "sample"), 100 * plan.least_valid,
-        100 * plan.most_valid);
+        "  time     {} of one core ({:.3g} ms a sample)\n  memory   {} at most, of this process\n"
+        "  valid    {:.1f} % of the pixels of {} looked at ({:.0f} to {:.0f} %)\n",
+        core_time_text(core_seconds), 1000 * plan.sample_seconds, set_size_text(static_cast<double>(plan.peak_bytes)), 100 * valid,
+        counted(plan.pilot, "sample"), 100 * plan.least_valid, 100 * plan.most_valid);
   if (plan.found == DatasetPlan::Found::same) text += "  the same plan was there\n";
   if (plan.found == DatasetPlan::Found::fewer_samples) text += "  the plan that was there has more samples now\n";
   print(text);
