@@ -147,7 +147,7 @@ def judge_taps(camera: tofray.Camera, film: Film, row: dict[str, Any], what: str
     judge(means[farthest] - row["adc_filling"] * reach, error, "adc_filling" + what, 2 * error + (0.5 if spreads[farthest] < 0.5 else 0.0))
 
 
-def judge_row(camera: tofray.Camera, film: Film, row: dict[str, Any], what: str) -> None:
+def judge_row(camera: tofray.Camera, film: Film, row: dict[str, Any], lux: float, what: str, **given: Any) -> None:
     assert film.irradiance == pytest.approx(row["irradiance_w_m2"], rel=1e-5)
     assert film.power == pytest.approx(row["power_w"], rel=1e-5)
     for i, hz in enumerate(row["modulation_frequency_hz"]):   # without noise: what the simulator expects, to float32
@@ -167,10 +167,14 @@ def judge_row(camera: tofray.Camera, film: Film, row: dict[str, Any], what: str)
     judge_spread(film.range[~wrong], row["sigma_m"], "sigma_m" + what, of_phase)
     judge_spread(film.z[~wrong], row["sigma_z_m"], "sigma_z_m" + what, of_phase)
     judge_mean(film.range[~wrong], expected, "range_m" + what)
+    # It goes by the slope of wiggling at the measured phase, a constant of each cell of a table: its mean over noise is not that of one phase.
+    steps = np.linspace(-3, 3, 25)
+    around = tofray.budget(camera, row["z_m"] + steps * row["frequency_sigma_m"].max(), [row["reflectivity"]], [lux], **given)["noise_estimate_m"][0, 0]
+    bent = abs(np.average(around, weights=np.exp(-steps ** 2 / 2)) - row["noise_estimate_m"])
     # A noisy grey frame says more ambient light than there is, where that is less than its noise, for it is held to 0. Amplitudes vary by σ_φ.
     grey = film.ambient.mean() - row["ambient_e"] if (film.ambient > 0).any() else 0.0
     estimate = row["noise_estimate_m"] * (1 + grey * row["share_signal_shot"] / (2 * row["signal_e"]))
-    judge_mean(film.noise[~wrong], estimate, "noise_estimate_m" + what, (of_phase ** 2 + 5e-4) * estimate)
+    judge_mean(film.noise[~wrong], estimate, "noise_estimate_m" + what, bent + (of_phase ** 2 + 1e-4) * estimate)
     # A modulus of noisy sums is long by σ²/2A of each frequency.
     rice = film.amplitudes.var(axis=0) / (2 * row["frequency_amplitude_e"])
     judge_mean(film.amplitude, row["amplitude_e"] + rice.mean(), "amplitude_e" + what)
@@ -192,7 +196,7 @@ def judge_row(camera: tofray.Camera, film: Film, row: dict[str, Any], what: str)
 def test_rows_are_those_of_simulated_frames(name: str, z: float, reflectivity: float, lux: float) -> None:
     camera = tofray.load_camera(name)
     film = Film(one_pixel(camera), z, reflectivity, lux, seed=100 * CAMERAS.index(name) + round(10 * z))
-    judge_row(camera, film, row_of(camera, z, reflectivity, lux), f", {name} at {z:g} m, {reflectivity:g}, {lux:g} lx")
+    judge_row(camera, film, row_of(camera, z, reflectivity, lux), lux, f", {name} at {z:g} m, {reflectivity:g}, {lux:g} lx")
 
 
 TURNED = [("pico-flexx", 1.2, 0.6, None, None), ("flexx2", 1.0, -0.4, (5, 5), 60.0), ("kinect-v2", 0.8, 0.5, (400, 100), None),
@@ -208,8 +212,9 @@ def test_turned_walls_pixels_at_the_rim_and_warm_cameras(name: str, z: float, an
     warm = copy.deepcopy(camera)
     if celsius is not None:
         warm.temperature.celsius = celsius
-    row = row_of(camera, z, 0.5, 0.0, angle_rad=angle, temperature_celsius=celsius, pixel=pixel)
-    judge_row(camera, Film(one_pixel(warm, pixel), z, 0.5, 0.0, angle), row, f", {name} turned by {angle:g} rad, pixel {pixel}, {celsius} degrees Celsius")
+    given: dict[str, Any] = {"angle_rad": angle, "temperature_celsius": celsius, "pixel": pixel}
+    row, what = row_of(camera, z, 0.5, 0.0, **given), f", {name} turned by {angle:g} rad, pixel {pixel}, {celsius} degrees Celsius"
+    judge_row(camera, Film(one_pixel(warm, pixel), z, 0.5, 0.0, angle), row, 0.0, what, **given)
     cold = row_of(camera, z, 0.5, 0.0, angle_rad=angle, pixel=pixel)
     if celsius is not None:
         kelvin = celsius - camera.temperature.celsius
@@ -219,9 +224,23 @@ def test_turned_walls_pixels_at_the_rim_and_warm_cameras(name: str, z: float, an
         assert row["irradiance_w_m2"] / row_of(camera, z, 0.5, 0.0)["irradiance_w_m2"] == pytest.approx(math.cos(angle), rel=0.03)
 
 
+def spread_of_codes(row: dict[str, Any]) -> float:
+    """Of the taps' difference [e], from what own light's shot noise has of it."""
+    return math.sqrt(row["signal_e"] / row["share_signal_shot"])
+
+
+def fine(camera: tofray.Camera, row: dict[str, Any]) -> tofray.Camera:
+    """Next to no rounding, and wells that nothing fills."""
+    out, adc = copy.deepcopy(camera), camera.adc
+    farthest = row["adc_filling"] * min(adc.mid_code - adc.valid_min, adc.valid_max - adc.mid_code) * adc.step_e_per_dn
+    most = float(1.1 * farthest + 10 * math.hypot(math.sqrt(5 * row["signal_e"]), spread_of_codes(row)))
+    out.pixel.full_well_e, out.adc = 1e9, tofray.Adc(bits=16, mid_code=32768, valid_max=65535, step_e_per_dn=most / 32768)
+    return out
+
+
 def distance_with_wrong_cycles(camera: tofray.Camera, reflectivity: float, lux: float, share: float) -> float | None:
-    """Where about so many cycles are wrong; None: nowhere below saturation and 12 m."""
-    near, far = 0.3, 12.0
+    """Where about so many cycles are wrong; None: nowhere in the unambiguous range."""
+    near, far = 0.3, 0.9 * float(tofray.budget(camera).summary["ambiguity_range_m"])
     for _ in range(20):
         middle = math.sqrt(near * far)
         wrong = row_of(camera, middle, reflectivity, lux)["wrong_cycle"]
@@ -231,23 +250,38 @@ def distance_with_wrong_cycles(camera: tofray.Camera, reflectivity: float, lux: 
     return None
 
 
-WRONG = [(0.3, 0.0, 0.02), (0.3, 2e4, 0.05), (0.1, 1e5, 0.12), (0.8, 3e3, 0.25)]   # reflectivity, lx, share of wrong cycles
+def judge_wrong_cycles(camera: tofray.Camera, reflectivity: float, lux: float, share: float, name: str) -> None:
+    z = distance_with_wrong_cycles(camera, reflectivity, lux, share)
+    if z is None:
+        pytest.skip("so many cycles are wrong nowhere")
+    row = row_of(camera, z, reflectivity, lux)
+    if camera.adc.step_e_per_dn > spread_of_codes(row):   # a few codes, which have no tails of a normal law
+        camera = fine(camera, row)
+        row = row_of(camera, z, reflectivity, lux)
+    assert 0.01 < row["wrong_cycle"] < 0.3
+    frames = frames_of(one_pixel(camera), z, reflectivity, lux, 0.0, 3, RANGES)
+    ranges = np.array([one.depth.range_by_frequency_m[:, 0, 0] for one in frames], float)
+    wrong = ~(np.abs(ranges - row["range_m"] - row["bias_m"]) <= cycle_of(row) / 2).all(axis=1)
+    judge_count(int(wrong.sum()), row["wrong_cycle"], f"wrong_cycle, {name} at {z:.2f} m, {reflectivity:g}, {lux:g} lx")
+
+
+WRONG = [(0.3, 0.0, 0.03), (0.3, 2e4, 0.05), (0.1, 1e5, 0.12), (0.8, 3e3, 0.25)]   # reflectivity, lx, share of wrong cycles
 
 
 @pytest.mark.parametrize("name, reflectivity, lux, share", [(name, *one) for name in CAMERAS if name != "opt8241" for one in WRONG] if LONG else [
     ("pico-flexx", *WRONG[2]), ("azure-kinect-wfov", *WRONG[1])])
 def test_wrong_cycles_where_they_count(name: str, reflectivity: float, lux: float, share: float) -> None:
     camera = tofray.load_camera(name)
-    z = distance_with_wrong_cycles(camera, reflectivity, lux, share)
-    if z is None:
-        pytest.skip("so many cycles are wrong nowhere")
-    row = row_of(camera, z, reflectivity, lux)
-    assert 0.01 < row["wrong_cycle"] < 0.3
-    frames = frames_of(one_pixel(camera), z, reflectivity, lux, 0.0, 3, RANGES)
-    ranges = np.array([float(one.depth.range_m[0, 0]) for one in frames])
-    off = np.abs(ranges - row["range_m"] - row["bias_m"])
-    wrong = ~(off <= cycle_of(row).min() / 2)
-    judge_count(int(wrong.sum()), row["wrong_cycle"], f"wrong_cycle, {name} at {z:.2f} m, {reflectivity:g}, {lux:g} lx")
+    judge_wrong_cycles(camera, reflectivity, lux, share, name)
+
+
+def test_modulation_frequencies_with_times_of_their_own() -> None:
+    camera = tofray.load_camera("custom")
+    lowest = min(one.modulation_frequency_hz for one in camera.mode.sequence if one.lit)
+    for one in camera.mode.sequence:
+        one.integration_time_s *= 0.15 if one.lit and one.modulation_frequency_hz == lowest else 1.0
+    judge_row(camera, Film(one_pixel(camera), 1.0, 0.8, 2e3), row_of(camera, 1.0, 0.8, 2e3), 2e3, ", custom with times of their own")
+    judge_wrong_cycles(camera, *WRONG[1], "custom with times of their own")
 
 
 def fused(camera: tofray.Camera, z: float, reflectivity: float, lux: float, row: dict[str, Any], seed: int = 1) -> Any:
@@ -257,14 +291,6 @@ def fused(camera: tofray.Camera, z: float, reflectivity: float, lux: float, row:
     weights = row["frequency_sigma_m"] ** -2.0
     off = in_its_cycle(ranges, ranges[0], row)
     return ((off - off.mean(axis=0)) * weights).sum(axis=1) / weights.sum()
-
-
-def fine(camera: tofray.Camera, row: dict[str, Any]) -> tofray.Camera:
-    """Without rounding, and with room: the codes reach four times the expected signal."""
-    out = copy.deepcopy(camera)
-    out.pixel.full_well_e = 1e9
-    out.adc = tofray.Adc(bits=16, mid_code=32768, valid_max=65535, step_e_per_dn=float(4 * row["signal_e"] + 20 * math.sqrt(5 * row["signal_e"])) / 32768)
-    return out
 
 
 def silent(camera: tofray.Camera, row: dict[str, Any]) -> tofray.Camera:
@@ -307,17 +333,20 @@ def test_shares_are_the_noise_that_each_cause_makes_alone(name: str, z: float, r
     else:
         assert row["share_ambient_shot"] == 0
     # The same draws with fine codes and with the camera's: what is between them is rounding alone.
-    roomy = copy.deepcopy(camera)
+    finer, roomy = fine(camera, row), copy.deepcopy(camera)
     roomy.pixel.full_well_e = 1e9
-    rounding = fused(roomy, z, reflectivity, lux, row, 5) - fused(fine(camera, row), z, reflectivity, lux, row, 5)
-    judge_spread(rounding, row["sigma_m"] * math.sqrt(row["share_adc"]), "share_adc" + what)
+    rounding = fused(roomy, z, reflectivity, lux, row, 5) - fused(finer, z, reflectivity, lux, row, 5)
+    both = math.hypot(1, finer.adc.step_e_per_dn / camera.adc.step_e_per_dn)
+    judge_spread(rounding, row["sigma_m"] * math.sqrt(row["share_adc"]) * both, "share_adc" + what, math.sqrt(2) * sigma_rad(row).mean())
     assert row["share_suppression"] == row["share_lines"] == 0, "no built-in camera has them"
 
 
-@pytest.mark.parametrize("name, z, reflectivity, lux", [(name, z, reflectivity, lux + 2e4) for name, z, reflectivity, lux in ALL_CASES] if LONG else [
-    ("pico-flexx", 0.7, 0.5, 2e4)])
-def test_shares_of_suppression_and_of_lines_are_the_noise_that_each_makes_alone(name: str, z: float, reflectivity: float, lux: float) -> None:
+@pytest.mark.parametrize("name, z, reflectivity", [(name, z, reflectivity) for name, z, reflectivity, _ in ALL_CASES] if LONG else [("pico-flexx", 0.7, 0.5)])
+def test_shares_of_suppression_and_of_lines_are_the_noise_that_each_makes_alone(name: str, z: float, reflectivity: float) -> None:
     camera = tofray.load_camera(name)
+    weak = row_of(camera, z, reflectivity, 100.0)
+    lux = float(200 * weak["signal_e"] / weak["ambient_e"])   # twice as much ambient light as its own
+    camera.pixel.full_well_e = 1e9
     first = row_of(camera, z, reflectivity, lux)
     camera = fine(camera, first)
     # A threshold of half of what the emptier tap has at the least, and none that holds it there.
@@ -327,12 +356,14 @@ def test_shares_of_suppression_and_of_lines_are_the_noise_that_each_makes_alone(
     camera.pixel.column_noise_e, camera.pixel.row_noise_e = 0.5 * math.sqrt(first["signal_e"]), 0.7 * math.sqrt(first["signal_e"])
     row, what = row_of(camera, z, reflectivity, lux), f", {name} at {z:g} m, {reflectivity:g}, {lux:g} lx"
     assert row["share_suppression"] > 0.02 and row["share_lines"] > 0.02
+    if sigma_rad(row).max() > 0.1:
+        pytest.skip("beyond what a budget of first order says")
     with_all = fused(camera, z, reflectivity, lux, row)
     judge_spread(with_all, row["sigma_m"], "sigma_m with suppression and lines" + what, sigma_rad(row).mean())
     for cause, names in (("suppression", ["suppression_noise_factor"]), ("lines", ["column_noise_e", "row_noise_e"])):
         without = copy.deepcopy(camera)
         for one in names:
             setattr(without.pixel, one, 0.0)
-        # The same draws but those of this cause.
-        rad = sigma_rad(row).mean() * math.sqrt(row["share_" + cause])
+        # The same draws but those of this cause; its part of the phase's variance is by 1 + 2σ² of all of them larger than first order says.
+        rad = math.sqrt(2) * sigma_rad(row).mean()
         judge_spread(with_all - fused(without, z, reflectivity, lux, row), row["sigma_m"] * math.sqrt(row["share_" + cause]), f"share_{cause}" + what, rad)
