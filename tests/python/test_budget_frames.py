@@ -269,7 +269,7 @@ WRONG = [(0.3, 0.0, 0.03), (0.3, 2e4, 0.05), (0.1, 1e5, 0.12), (0.8, 3e3, 0.25)]
 
 
 @pytest.mark.parametrize("name, reflectivity, lux, share", [(name, *one) for name in CAMERAS if name != "opt8241" for one in WRONG] if LONG else [
-    ("azure-kinect-wfov", *WRONG[1])])
+    ("pico-flexx", *WRONG[2]), ("azure-kinect-wfov", *WRONG[1])])
 def test_wrong_cycles_where_they_count(name: str, reflectivity: float, lux: float, share: float) -> None:
     camera = tofray.load_camera(name)
     judge_wrong_cycles(camera, reflectivity, lux, share, name)
