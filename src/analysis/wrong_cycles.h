@@ -25,6 +25,7 @@ struct NoisyPhase {
 
 /// Probability that the half paths of several modulation frequencies are unwrapped to other cycles than their own: for two by integration,
 /// for more by 16,384 quasi-random phases through equation 4.6.                                       [theory: eq. 4.30]
+/// Noise is normal: where codes are longer than the noise that they round, it says too much or too little.
 /// @param cycles  of each modulation frequency in the ambiguity range, without a common divisor
 double wrong_cycle_probability(const std::vector<NoisyPhase>& phases, const std::vector<int>& cycles);
 
