@@ -307,7 +307,7 @@ test("what another page has changed is shown, and can be undone here", async () 
 });
 
 test("of a frame that takes long a draft comes first, marked as one; what stays has the bytes of the command", async () => {
-  const slow = ["room", "--seed", "5", "--bounces", "7", "--subpixel", "3"];
+  const slow = ["room", "--seed", "5", "--bounces", "7", "--subpixel", "5"];   // a second at least: the page draws the draft before it, however busy
   const { url } = await view(slow);
   const tab = await shown(url);
   const { page } = tab;
