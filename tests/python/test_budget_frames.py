@@ -332,7 +332,7 @@ def test_shares_are_the_noise_that_each_cause_makes_alone(name: str, z: float, r
         judge_added("ambient_shot", silent(camera, row), times * lux, times, 4)
     else:
         assert row["share_ambient_shot"] == 0
-    # The same draws with fine codes and with the camera's: what is between them is rounding alone.
+    # Frames of one seed differ by rounding alone where one camera has fine codes and the other its own.
     finer, roomy = fine(camera, row), copy.deepcopy(camera)
     roomy.pixel.full_well_e = 1e9
     rounding = fused(roomy, z, reflectivity, lux, row, 5) - fused(finer, z, reflectivity, lux, row, 5)
@@ -364,6 +364,6 @@ def test_shares_of_suppression_and_of_lines_are_the_noise_that_each_makes_alone(
         without = copy.deepcopy(camera)
         for one in names:
             setattr(without.pixel, one, 0.0)
-        # The same draws but those of this cause; its part of the phase's variance is by 1 + 2σ² of all of them larger than first order says.
+        # Frames of one seed differ by this cause alone, whose part of the phase's variance is 1 + 2σ² times what first order says.
         rad = math.sqrt(2) * sigma_rad(row).mean()
         judge_spread(with_all - fused(without, z, reflectivity, lux, row), row["sigma_m"] * math.sqrt(row["share_" + cause]), f"share_{cause}" + what, rad)

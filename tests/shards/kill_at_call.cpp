@@ -2,39 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loaded before the C library: kills the process before the KILL_AT-th of the calls by which files change, from 1 on. Without it, or where there are fewer,
 // nothing happens, and how many there were is written into the file KILL_COUNT.
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <cstdio>
-#include <cstdlib>
+#include "preloaded.h"
 
 namespace {
 
-std::atomic<long> calls{0};
+using preloaded::calls, preloaded::real;
 
 void count() {
   static const char* const at = std::getenv("KILL_AT");
   if (++calls == (at != nullptr ? std::atol(at) : -1)) ::kill(::getpid(), SIGKILL);
 }
 
-template <class Call>
-Call* real(const char* name) {
-  return reinterpret_cast<Call*>(::dlsym(RTLD_NEXT, name));
-}
-
-struct Report {
-  ~Report() {
-    const char* const name = std::getenv("KILL_COUNT");
-    std::FILE* const file = name != nullptr ? std::fopen(name, "w") : nullptr;
-    if (file == nullptr) return;
-    std::fprintf(file, "%ld", calls.load());
-    std::fclose(file);
-  }
-} report;
+preloaded::Report report{"KILL_COUNT"};
 
 }  // namespace
 

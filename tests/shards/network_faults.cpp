@@ -9,23 +9,21 @@
 //   close_full  a file is closed, and then there was no room for what had been written (ENOSPC)
 //   sync_quota  the same of a sync (EDQUOT)
 // FAULT_AT is the number of the call that fails, from 1 on; without it all of them do. How many calls could have failed is written into FAULT_COUNT.
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdarg>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "preloaded.h"
+
 namespace {
 
-std::atomic<long> calls{0};
+using preloaded::calls, preloaded::real;
 
 const char* word(const char* name) {
   const char* const value = std::getenv(name);
@@ -60,24 +58,12 @@ bool is_of_a_shard(const char* path) {
   return is_under(path) && std::strstr(path, "/shards/") != nullptr && std::strchr(path, '.') != nullptr;
 }
 
-template <class Call>
-Call* real(const char* name) {
-  return reinterpret_cast<Call*>(::dlsym(RTLD_NEXT, name));
-}
-
 int failed(int code) {
   errno = code;
   return -1;
 }
 
-struct Report {
-  ~Report() {
-    std::FILE* const file = std::fopen(word("FAULT_COUNT"), "w");
-    if (file == nullptr) return;
-    std::fprintf(file, "%ld", calls.load());
-    std::fclose(file);
-  }
-} report;
+preloaded::Report report{"FAULT_COUNT"};
 
 }  // namespace
 
