@@ -55,8 +55,9 @@ double rounded_millimetres(float z) { return std::floor(1000.0 * static_cast<dou
 }  // namespace
 
 std::size_t beyond_depth_png(const Depth& depth) {
-  return static_cast<std::size_t>(
-      std::count_if(depth.z_m.begin(), depth.z_m.end(), [](float z) { return rounded_millimetres(z) > most_millimetres; }));
+  return static_cast<std::size_t>(std::count_if(depth.z_m.begin(), depth.z_m.end(), [](float z) {
+    return 1000.0 * static_cast<double>(z) + 0.5 >= most_millimetres + 1;  // as rounded_millimetres(), without a call for each pixel
+  }));
 }
 
 std::string depth_png(const Depth& depth) {

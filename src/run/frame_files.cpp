@@ -69,7 +69,8 @@ std::vector<std::string> FrameFiles::needed_arrays() const {
   if (emits("npz") && npz.arrays.is_all()) return {};
   std::vector<std::string> names;
   for (const results::ArrayRow& row : results::array_table()) {
-    const bool filed = emits("npz") && npz.arrays.has(row), told = row.from == "depth";
+    const bool filed = emits("npz") && npz.arrays.has(row), by_frequency = row.shape.starts_with("[frequency");
+    const bool told = row.from == "depth" && !by_frequency;
     const bool drawn = emits("png") && (row.name == "raw" || row.name == "gt_z_m" || row.name == "gt_multipath_m");
     // What no bin holds is told beside what the bins hold.
     const bool counted = need_transient() && row.name.starts_with("transient_");
