@@ -46,7 +46,7 @@ Scenes::Written Scenes::write(std::uint64_t sample, std::uint64_t view) const {
 std::optional<std::size_t> Scenes::broken_rule_of(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const {
   const Written written = write_attempt(sample, view, attempt);
   if (set_.accept.empty()) return {};
-  return broken_rule(load::scene_from_text(written.yaml, source(sample, view)), noise_seed(sample, view), set_.accept);
+  return broken_rule(read(written, sample, view), noise_seed(sample, view), set_.accept);
 }
 
 std::uint32_t Scenes::accepted(std::uint64_t sample) const {
@@ -94,26 +94,37 @@ Scenes::Written Scenes::write_attempt(std::uint64_t sample, std::uint64_t view, 
   yaml::read(model::scene_form(), scene, faults);
   faults.raise();
   std::vector<Drawn> drawn = drawing.drawn();
+  Judgement judged;
+  if (!set_.tries()) drawing.judge(judged);
   const bool looks = drawing.look() != nullptr;
   for (const Scatter& one : drawing.scatters())
     if (looks && one.far_m > 0)
       base::fail(one.place, "things are put into the view of a camera that is put by `look` after them",
                  "expected surface or box, or a pose without look");
   if (!drawing.scatters().empty()) {
-    const Scene standing = load::scene_from_text(load::block_yaml(scene), source(sample, view));
+    const Scene standing = read(scene, sample, view);
     const Chance chance = [&](const std::string& path) { return drawing.chance(path); };
     const std::vector<Drawn> placed = place_objects(standing, drawing.scatters(), chance, !looks, scene);
     drawn.insert(drawn.end(), placed.begin(), placed.end());
   }
   if (looks) {
-    const Scene standing = load::scene_from_text(load::block_yaml(scene), source(sample, view));
+    const Scene standing = read(scene, sample, view);
     const double clear = drawing.look_clear();
     const int tries = drawing.look_tries();
     drawn.push_back(place_camera(
         standing, [&](int at_try) { return drawing.draw_look(at_try); }, clear, tries, scene));
   }
-  return {load::scene_yaml(load::block_yaml(scene), source(sample, view), settings), std::move(drawn)};
+  load::apply(scene, settings);
+  return {std::move(scene), std::move(drawn), std::move(judged)};
 }
+
+Scene Scenes::read(yaml::Node tree, std::uint64_t sample, std::uint64_t view) const {
+  const std::string name = source(sample, view);
+  yaml::rename_source(tree, set_.source, name);
+  return load::scene_from_tree(tree, name);
+}
+
+Scene Scenes::read(const Written& written, std::uint64_t sample, std::uint64_t view) const { return read(written.tree, sample, view); }
 
 void Scenes::judge(std::uint64_t sample, std::uint64_t view, Judgement& into) const {
   std::optional<Sample> drawing;
@@ -132,10 +143,10 @@ Split Scenes::split(std::uint64_t sample) const {
   return split_of(set_, sample);
 }
 
-std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return write(sample, view).yaml; }
+std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return load::block_yaml(write(sample, view).tree); }
 
 Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
-  return load::scene_from_text(yaml(sample, view), source(sample, view));
+  return read(write(sample, view), sample, view);
 }
 
 std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const {

@@ -36,16 +36,20 @@ class Scenes {
   /// Adds what was drawn for a view before anything was refused, by its place in its law: `accept` and places bend laws, samplers do not.
   void judge(std::uint64_t sample, std::uint64_t view, Judgement& into) const;
 
-  /// A sample's scene as YAML, and what was drawn for it.
+  /// A sample's scene, and what was drawn for it.
   struct Written {
-    std::string yaml;
+    yaml::Node tree;  ///< each value stands where its form stands in the set's file
     std::vector<Drawn> drawn;
+    Judgement judged;  ///< as judge() adds it; of a set that refuses nothing
   };
   [[nodiscard]] Written write(std::uint64_t sample, std::uint64_t view) const;
+  /// The scene that was written. @throws Error with line and column
+  [[nodiscard]] Scene read(const Written& written, std::uint64_t sample, std::uint64_t view) const;
   /// What messages call a sample's scene; its folder is the set's.
   [[nodiscard]] std::string source(std::uint64_t sample, std::uint64_t view) const;
 
  private:
+  [[nodiscard]] Scene read(yaml::Node tree, std::uint64_t sample, std::uint64_t view) const;
   void refuse_unknown(std::uint64_t sample, std::uint64_t view) const;
   [[nodiscard]] Sample at(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt = 0) const;
   [[nodiscard]] Written write_attempt(std::uint64_t sample, std::uint64_t view, std::uint32_t attempt) const;

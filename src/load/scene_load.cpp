@@ -404,6 +404,8 @@ Scene interpret(const Node& root, const std::string& source, const assets::MeshF
   return out;
 }
 
+}  // namespace
+
 void apply(Node& root, const Settings& settings) {
   refuse_too_many(settings.size(), base::whole("--set"));
   for (const auto& [key, text] : settings) {
@@ -412,16 +414,13 @@ void apply(Node& root, const Settings& settings) {
   }
 }
 
-}  // namespace
-
 Node scene_tree(std::string_view text, const std::string& source, const Settings& settings) {
   Node root = parse_tree(text, source);
   apply(root, settings);
   return root;
 }
 
-Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const assets::MeshFiles& meshes) {
-  const Node root = scene_tree(text, source, settings);
+Scene scene_from_tree(const Node& root, const std::string& source, const assets::MeshFiles& meshes) {
   Scene scene = interpret(root, source, meshes);
   scene.source = source;
   std::string stem = std::filesystem::path(source).stem().string();
@@ -429,6 +428,10 @@ Scene scene_from_text(const std::string& text, const std::string& source, const 
   // The name becomes a folder's: "." and ".." are folders that have one.
   scene.name = stem.empty() || stem == "." || stem == ".." ? "scene" : stem;
   return scene;
+}
+
+Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings, const assets::MeshFiles& meshes) {
+  return scene_from_tree(scene_tree(text, source, settings), source, meshes);
 }
 
 Scene load_scene(const std::string& file_or_name, const Settings& settings, const assets::MeshFiles& meshes) {

@@ -13,6 +13,12 @@ namespace tofray::load {
 /// A scene's text after the settings.
 yaml::Node scene_tree(std::string_view text, const std::string& source, const Settings& settings);
 
+/// Changes keys of a scene's tree, as --set does.
+void apply(yaml::Node& root, const Settings& settings);
+
+/// The scene that a tree says. @param source  as of scene_from_text()
+Scene scene_from_tree(const yaml::Node& root, const std::string& source, const assets::MeshFiles& meshes = {});
+
 /// A tree as YAML of several lines, which parse_tree() reads back.
 std::string block_yaml(const yaml::Node& root);
 

@@ -88,9 +88,20 @@ class ShardMaker {
       out.views.clear();
       out.why = maker_.without_folder(error.what());
     }
-    for (std::uint64_t view = 0; view < plan_.views; ++view) scenes_.judge(number, view, out.draws);
+    judge(number, out);
     worker_.ends(number);
     return out;
+  }
+
+  /// What was drawn is known from making the sample, unless the set refuses draws, or the sample became a hole.
+  void judge(std::uint64_t number, SampleOrHole& of) const {
+    for (std::uint64_t view = 0; view < plan_.views; ++view) {
+      if (of.views.empty() || scenes_.set().tries()) {
+        scenes_.judge(number, view, of.draws);
+      } else {
+        for (const auto& [path, counts] : of.views[view].draws) of.draws[path].add(counts);
+      }
+    }
   }
 
   void put(std::uint64_t number, const SampleOrHole& one, files::StreamedFile& tar, Record& record) const {

@@ -14,6 +14,7 @@
 #include "files/tar.h"
 #include "files/text_file.h"
 #include "load/load.h"
+#include "load/trees.h"
 #include "results/frame_file.h"
 #include "run/profile_tables.h"
 #include "shards/quantised.h"
@@ -137,8 +138,8 @@ void SampleMaker::add_inputs(const Scene& scene, const Camera& camera, std::map<
 }
 
 MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
-  const dataset::Scenes::Written written = scenes_.write(sample, view);
-  const Scene scene = load::scene_from_text(written.yaml, scenes_.source(sample, view));
+  dataset::Scenes::Written written = scenes_.write(sample, view);
+  const Scene scene = scenes_.read(written, sample, view);
   const bool classed = std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& one) { return !one.class_name.empty(); });
   if (classed && scene.classes.empty())
     throw Error(
@@ -155,7 +156,7 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
   if (progress_ != nullptr && progress_->stop) throw Error(ErrorKind::io, "error: interrupted");
 
   MadeSample out;
-  out.view = view;
+  out.view = view, out.draws = std::move(written.judged);
   out.statistics.add(frame);
   add_inputs(scene, camera, out.inputs);
   const results::FrameArrays all(frame, camera, camera_pose(scene, frame.truth.time_s), choice_);
@@ -200,7 +201,7 @@ MadeSample SampleMaker::make(std::uint64_t sample, std::uint64_t view) const {
                          .set("height", frame.depth.height));
   json.set("numbers", std::move(small)).set("arrays", std::move(arrays));
   json.set("objects", objects_json(scene, frame.truth)).set("classes", Json::list(scene.classes)).set("materials", std::move(materials));
-  json.set("drawn", drawn_json(written.drawn)).set("scene", written.yaml);
+  json.set("drawn", drawn_json(written.drawn)).set("scene", load::block_yaml(written.tree));
   out.members.push_back({"json", files::json_text(json) + "\n"});
   return out;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/judge.h"
 #include "shards/plan.h"
 #include "shards/statistics.h"
 #include "tofray/camera.h"
@@ -24,6 +25,7 @@ struct MadeSample {
   std::vector<Member> members;                ///< arrays in the order of the table of arrays, then "json"
   std::map<std::string, std::string> inputs;  ///< SHA-256 of the files that it read, by name from the set's folder on
   Statistics statistics;
+  dataset::Judgement draws;  ///< as Scenes::judge() adds it; of a set that refuses nothing
 };
 
 /// Samples of a set, by number.

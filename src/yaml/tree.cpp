@@ -3,6 +3,7 @@
 #include "yaml/tree.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "base/text.h"
@@ -74,6 +75,25 @@ void set_place(Node& node, const base::Place& place) {
   node.place = place;
   for (auto& key : node.keys) key.place = place;
   for (auto& item : node.items) set_place(item, place);
+}
+
+namespace {
+
+using Source = std::shared_ptr<const std::string>;
+
+void rename_source(Node& node, const std::string& from, const Source& to) {
+  const auto rename = [&](Source& source) {
+    if (source && *source == from) source = to;
+  };
+  rename(node.place.source);
+  for (auto& key : node.keys) rename(key.place.source);
+  for (auto& item : node.items) rename_source(item, from, to);
+}
+
+}  // namespace
+
+void rename_source(Node& node, const std::string& from, const std::string& to) {
+  rename_source(node, from, std::make_shared<const std::string>(to));
 }
 
 }  // namespace tofray::yaml

@@ -47,5 +47,7 @@ std::string flow_text(const Node& node);
 
 /// Sets every place in the tree.
 void set_place(Node& node, const base::Place& place);
+/// Calls what stands in a file of one name by another name; lines and columns stay.
+void rename_source(Node& node, const std::string& from, const std::string& to);
 
 }  // namespace tofray::yaml
