@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,24 @@ def test_each_word_reaches_the_budget() -> None:
     assert tofray.budget(camera, [0.1], [0.9], auto_exposure=True)["exposure"] < 0.5
     camera.pixel.dark_current_doubling_k = 8
     assert tofray.budget(camera, [1.0], [0.5], temperature_celsius=80)["dark_e"] > 2 * plain["dark_e"]
+
+
+@pytest.mark.parametrize("name, lux, reflectivity", [("pico-flexx", 1e5, 0.3), ("kinect-v2", 2e4, 0.9), ("opt8241", 50, 0.02)])
+def test_ambient_light_has_its_closed_form(name: str, lux: float, reflectivity: float) -> None:
+    """Of an even spectrum E_λ = lux/(683 lm/W · ∫V dλ), ∫V dλ = 106.86 nm; through a filter with straight sides, lens and pixel (2.10, 2.5, 2.6)."""
+    camera = tofray.load_camera(name)
+    camera.filter = tofray.Filter(center_m=camera.filter.center_m, half_width_m=12e-9, peak=0.75)
+    camera.pixel.quantum_efficiency = tofray.Curve(x=[400e-9, 1100e-9], y=[0.5, 0.5])
+    light = tofray.Ambient(spectrum="equal_energy", quantity="illuminance_lx", amount=lux)
+    got = tofray.budget(camera, [1.0], reflectivity=[reflectivity], ambient=[tofray.AmbientCase(name="even", ambient=light)])
+    irradiance = lux / 683 / 106.857e-9 * 0.75 * 24e-9
+    assert got["ambient_irradiance_w_m2"].item() == pytest.approx(irradiance, rel=1e-3)
+    lens, sensor = camera.lens, camera.sensor
+    radiance = reflectivity * irradiance / math.pi
+    power = math.pi * lens.transmission * radiance / (4 * lens.f_number**2) * sensor.pixel_pitch_m**2 * sensor.fill_factor
+    assert got["ambient_power_w"].item() == pytest.approx(power, rel=1e-3)
+    charge = power * 0.5 * camera.filter.center_m / (6.62607015e-34 * 299792458) * got["frequency_integration_time_s"].max()
+    assert got["ambient_e"].item() == pytest.approx(charge, rel=1e-3)
 
 
 def test_what_cannot_be_is_refused() -> None:
