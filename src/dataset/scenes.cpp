@@ -145,9 +145,7 @@ Split Scenes::split(std::uint64_t sample) const {
 
 std::string Scenes::yaml(std::uint64_t sample, std::uint64_t view) const { return load::block_yaml(write(sample, view).tree); }
 
-Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const {
-  return read(write(sample, view), sample, view);
-}
+Scene Scenes::scene(std::uint64_t sample, std::uint64_t view) const { return read(write(sample, view), sample, view); }
 
 std::vector<Drawn> Scenes::drawn(std::uint64_t sample, std::uint64_t view) const {
   Sample drawing = at(sample, view);

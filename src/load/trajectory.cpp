@@ -197,6 +197,16 @@ class TrajectoryParser {
     return std::move(out_);
   }
 
+  /// The pose of one line more, where it has one. The last pose is all that is kept.
+  std::optional<TimedPose> next(std::string_view text) {
+    ++number_;
+    const std::size_t before = out_.size();
+    line(text);
+    if (out_.size() == before) return {};
+    out_.erase(out_.begin(), out_.end() - 1);
+    return out_.back();
+  }
+
  private:
   [[nodiscard]] base::Place place(std::size_t at) const { return {path_, number_, static_cast<int>(at + bom_) + 1}; }
 
@@ -403,6 +413,23 @@ Stamp stamp_of(double seconds) {
 std::vector<TimedPose> parse_trajectory(std::string_view text, const std::string& path, const TrajectoryTimes& times,
                                         std::optional<Stamp>& clock, base::Faults& faults) {
   return TrajectoryParser(text, path, times, clock, faults).parse();
+}
+
+struct TrajectoryLines::Impl {
+  explicit Impl(const std::string& path) : parser("", path, times, clock, faults) {}
+  TrajectoryTimes times;
+  std::optional<Stamp> clock;
+  base::Faults faults;
+  TrajectoryParser parser;
+};
+
+TrajectoryLines::TrajectoryLines(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+TrajectoryLines::~TrajectoryLines() = default;
+
+std::optional<TimedPose> TrajectoryLines::take(std::string_view line) {
+  const std::optional<TimedPose> out = impl_->parser.next(line);
+  impl_->faults.raise();
+  return out;
 }
 
 }  // namespace tofray::load

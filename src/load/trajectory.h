@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,5 +39,21 @@ struct TrajectoryTimes {
 /// @return ascending in time, quaternions of unit length; none where there is a fault
 std::vector<TimedPose> parse_trajectory(std::string_view text, const std::string& path, const TrajectoryTimes& times,
                                         std::optional<Stamp>& clock, base::Faults& faults);
+
+/// The same of lines that come one after the other; a header may come first.
+class TrajectoryLines {
+ public:
+  explicit TrajectoryLines(const std::string& path);
+  TrajectoryLines(const TrajectoryLines&) = delete;
+  TrajectoryLines& operator=(const TrajectoryLines&) = delete;
+  ~TrajectoryLines();
+  /// @param line  without its end
+  /// @return the pose that it says; none of a header, a comment or an empty line @throws Error (bad_input) naming the line
+  std::optional<TimedPose> take(std::string_view line);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace tofray::load

@@ -222,6 +222,27 @@ class Bytes(Case):
         for one in readers:
             self.saw_all(one, told, expected)
 
+    def test_a_camera_that_is_moved_from_outside_sends_the_film_of_its_poses(self):
+        poses = "".join(f"{0.07 * i:.2f} {0.02 * i:.3f} {0.01 * (i % 3):.2f} {-0.03 * i:.2f} 0 {0.01 * i:.3f} 0 {(1 - (0.01 * i) ** 2) ** 0.5:.12f}\n" for i in range(16))
+        words = ["--topics", "depth,points,clock", *SMALL]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "poses.txt").write_text(poses)
+            (pathlib.Path(folder) / "moved.yaml").write_text(
+                "camera: {profile: pico-flexx, keyframes: {file: poses.txt}}\nobjects:\n  - plane: {point: [0, 0, 2], normal: [0, 0, -1], reflectivity: 0.5}\n"
+                "  - sphere: {center: [0.1, 0, 1.2], radius: 20 cm, reflectivity: 0.8}\n")
+            scene = str(pathlib.Path(folder) / "moved.yaml")
+            topics, expected = rendered(scene, 6, "--fps", 5, *words)
+            readers = self.readers(topics)
+            running = stream(scene, *words, "--rate", 5, "--history", 1000, "--wait-readers", len(readers) * len(topics), "--pose-from", "-", "--json",
+                             "--quiet")
+            for line in poses.splitlines(True):
+                running.process.stdin.write(line), running.process.stdin.flush()
+            running.process.stdin.close()
+            told = self.finished(running)
+        self.assertEqual((told["cameras"][0]["sent"], told["cameras"][0]["dropped"], told["poses_end_s"]), (6, 0, 1.05))
+        for one in readers:
+            self.saw_all(one, told, expected)
+
     @unittest.skipUnless(os.environ.get("TOFRAY_LONG"), "a minute of a pico flexx: with TOFRAY_LONG (.ci/long)")
     def test_a_minute_of_a_camera_arrives_whole(self):
         words = ["--driver", "pico_flexx", "--set", "camera.mode=MODE_5_45FPS_500", "--topics", "depth,points,clock", "--seed", "5"]
@@ -346,6 +367,9 @@ class Command(unittest.TestCase):
         self.assertIn("one of them", self.refused("room", "--frames", 2, "--duration", "1s"))
         self.assertIn("NAME:KEY=VALUE", self.refused("room", "--add-camera", "left:pose"))
         self.assertIn("several cameras", self.refused("room", "--driver", "k4a", "--add-camera", "a", "--add-camera", "b"))
+        self.assertIn("--pose-from and several cameras together", self.refused("room", "--pose-from", "-", "--add-camera", "a", "--add-camera", "b"))
+        self.assertIn("--pose-from and --latency together", self.refused("room", "--pose-from", "-", "--latency", "1ms"))
+        self.assertIn("/nowhere/poses: error: cannot read it", self.refused("room", "--pose-from", "/nowhere/poses", "-q", code=3))
 
     def test_an_interface_that_is_not_there_is_an_error_of_one_sentence(self):
         text = self.refused("room", "--interface", "nowhere7", code=5)

@@ -172,13 +172,15 @@ std::vector<Command> make() {
       {.name = "stream",
        .usage = "SCENE --to dds|foxglove [options]",
        .summary = "a camera in real time for ROS 2 or Foxglove: its driver's topics, on this machine alone unless told otherwise",
-       .examples = "tofray stream room --to dds                              # until Ctrl-C; topics as of /camera/points\n"
-                   "tofray stream room --to dds --driver pico_flexx          # under the names of that camera's driver\n"
-                   "tofray stream scene.yaml --to dds --rate 15 --latency 20ms --drift 75 --epoch now\n"
-                   "tofray stream room --to dds --topics depth,points --qos sensor --duration 60s --json\n"
-                   "tofray stream room --to dds --add-camera left:camera.pose.position=\"[-5cm,0,0]\" --add-camera right\n"
-                   "tofray stream room --to dds --interface eth0 --domain 7  # other machines on that network see it, too\n"
-                   "tofray stream room --to foxglove --topics depth,points   # then open ws://localhost:8765 in Foxglove or Lichtblick\n",
+       .examples =
+           "tofray stream room --to dds                              # until Ctrl-C; topics as of /camera/points\n"
+           "tofray stream room --to dds --driver pico_flexx          # under the names of that camera's driver\n"
+           "tofray stream scene.yaml --to dds --rate 15 --latency 20ms --drift 75 --epoch now\n"
+           "tofray stream room --to dds --topics depth,points --qos sensor --duration 60s --json\n"
+           "tofray stream room --to dds --add-camera left:camera.pose.position=\"[-5cm,0,0]\" --add-camera right\n"
+           "tofray stream room --to dds --interface eth0 --domain 7  # other machines on that network see it, too\n"
+           "tofray stream room --to foxglove --topics depth,points   # then open ws://localhost:8765 in Foxglove or Lichtblick\n"
+           "robot | tofray stream room --pose-from -                  # your program moves the camera: t x y z qx qy qz qw, a line each\n",
        .more =
            "Messages are those of `tofray render --emit mcap`, byte for byte. Each frame is sent once its last exposure is read out, "
            "--latency later; a frame whose time has passed is dropped, never queued, and counted.\n"
@@ -186,14 +188,50 @@ std::vector<Command> make() {
            "place of loopback.\n"
            "By --to foxglove readers of this machine come to ws://localhost:8765, and pages of elsewhere whose --allow-origin is given.\n"
            "--add-camera, once or more often for each name, is for several cameras of one scene: NAME is the first part of its topics, and "
-           "KEY=VALUE is as of --set. Light of the others is not simulated (`interference` in the profile stands for it).\n",
-       .options = {"--to",          "--port",        "--host",        "--allow-host",   "--allow-origin",   "--domain",
-                   "--interface",   "--qos",         "--history",     "--rate",         "--latency",        "--drift",
-                   "--duration",    "--frames",      "--first-frame", "--wait-readers", "--add-camera",     "--driver",
-                   "--topics",      "--camera-name", "--stamp",       "--epoch",        "--depth-encoding", "--amplitude-step",
-                   "--unorganized", "--set",         "--mode",        "--seed",         "--noise",          "--exposure-samples",
-                   "--subpixel",    "--bounces",     "--samples",     "--root",         "--threads",        "--backend",
-                   "--device",      "--json",        "--quiet"},
+           "KEY=VALUE is as of --set. Light of the others is not simulated (`interference` in the profile stands for it).\n"
+           "--pose-from takes the camera's poses as they come, in the world of the scene and of the optical frame (x right, y down, z "
+           "forward): "
+           "their time is the camera's, and no frame is dropped.\n",
+       .options = {"--to",
+                   "--port",
+                   "--host",
+                   "--allow-host",
+                   "--allow-origin",
+                   "--domain",
+                   "--interface",
+                   "--qos",
+                   "--history",
+                   "--rate",
+                   "--latency",
+                   "--drift",
+                   "--duration",
+                   "--frames",
+                   "--first-frame",
+                   "--wait-readers",
+                   "--add-camera",
+                   "--pose-from",
+                   "--driver",
+                   "--topics",
+                   "--camera-name",
+                   "--stamp",
+                   "--epoch",
+                   "--depth-encoding",
+                   "--amplitude-step",
+                   "--unorganized",
+                   "--set",
+                   "--mode",
+                   "--seed",
+                   "--noise",
+                   "--exposure-samples",
+                   "--subpixel",
+                   "--bounces",
+                   "--samples",
+                   "--root",
+                   "--threads",
+                   "--backend",
+                   "--device",
+                   "--json",
+                   "--quiet"},
        .least_words = 1,
        .most_words = 1,
        .run = run_stream,

@@ -429,7 +429,7 @@ const std::vector<Group>& groups() {
       {"Output",
        {"--output", "--export", "--clean", "--emit", "--arrays", "--compress", "--raw", "--theme", "--scale", "--csv", "--json",
         "--quiet"}},
-      {"Stream", {"--to", "--domain", "--interface", "--qos", "--history", "--latency", "--drift", "--wait-readers"}},
+      {"Stream", {"--to", "--domain", "--interface", "--qos", "--history", "--latency", "--drift", "--wait-readers", "--pose-from"}},
       {"Shards",
        {"--pilot", "--shard-samples", "--part", "--shards", "--recompute", "--partial", "--tasks", "--sbatch", "--engine", "--print"}},
       {"Messages of ROS 2 (render: with --emit mcap)",

@@ -80,6 +80,7 @@ struct Options {
     bool epoch_now = false;
     std::optional<double> duration_s;
     int readers = 0;
+    std::string poses;  ///< --pose-from: "-" or a file; empty: the camera is where the scene has it
     /// --add-camera: names, and what is set of each, in order.
     std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> cameras;
   } stream;  ///< of `tofray stream`

@@ -101,6 +101,14 @@ std::vector<OptionSpec> stream_specs() {
        [](Options& o, const std::string& v) {
          o.stream.readers = static_cast<int>(whole("--wait-readers", v, 0, 100'000, "a whole number of 0 to 100000"));
        }},
+      {"--pose-from", 0, "FILE",
+       "poses of the camera that come while it streams, lines of t x y z qx qy qz qw from a pipe, or - : a frame is sent once they reach "
+       "its end",
+       [](Options& o, const std::string& v) {
+         if (v.empty()) app::refuse("--pose-from", v, "a file or a pipe, or - for standard input");
+         o.stream.poses = v;
+       },
+       "<files>"},
       {"--add-camera", 0, "NAME[:KEY=VALUE]", "a camera of that name, of which KEY is VALUE; as often as you like", take_camera},
   };
 }

@@ -18,6 +18,7 @@
 #include "commands/stream_carrier.h"
 #include "messages/topics.h"
 #include "run/input_kind.h"
+#include "run/pose_lines.h"
 #include "tofray/error.h"
 
 namespace tofray::app {
@@ -99,7 +100,8 @@ struct Course {
   std::vector<stream::Account> accounts;
   double seconds = 0, processor_s = 0;
   bool delivered = true;
-  int readers = 0;  ///< subscriptions at the end
+  int readers = 0;                    ///< subscriptions at the end
+  std::optional<double> poses_end_s;  ///< when the last pose from outside is
 };
 
 /// @return whether they came
@@ -109,6 +111,35 @@ bool wait_for_readers(stream::Publisher& publisher, int readers, const std::atom
 }
 
 double host_time_s() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+
+/// Poses are of one camera, and their time is its clock.
+void refuse_with_poses(const Options& options) {
+  if (options.stream.poses.empty()) return;
+  const auto refuse_both = [](const char* other, const char* why) {
+    throw Error(ErrorKind::bad_input, fmt::format("error: --pose-from and {} together\n  {}", other, why));
+  };
+  if (options.stream.cameras.size() > 1) refuse_both("several cameras", "the poses are of one camera");
+  if (options.stream.latency_s > 0)
+    refuse_both("--latency", "frames are sent once poses reach their end, whatever this machine's clock says");
+  if (options.stream.drift != 0) refuse_both("--drift", "frames are sent once poses reach their end, whatever this machine's clock says");
+}
+
+/// Frames of a camera that is moved from outside: each is made and sent once the poses reach its end, as fast as they come, and none is dropped.
+/// The first one is that which starts with the first pose or after it.
+stream::Account follow(StreamedCamera& camera, run::PoseLines& poses, const Options& options, std::uint64_t frames,
+                       const std::atomic<bool>& stop) {
+  stream::Account out;
+  if (!poses.reach(-1e300, stop)) return out;
+  const double rate_hz = camera.rate_hz(), first = std::ceil(*poses.first_s() * rate_hz - 1e-6);
+  std::uint64_t frame = std::max(options.first_frame, first > 0 ? static_cast<std::uint64_t>(first) : 0);
+  for (; (frames == 0 || out.sent < frames) && poses.reach(camera.ready_at_s(frame), stop); ++frame) {
+    camera.place(poses.between(static_cast<double>(frame) / rate_hz, camera.ready_at_s(frame)));
+    camera.make(frame - options.first_frame);
+    camera.send();
+    ++out.sent;
+  }
+  return out;
+}
 
 Course stream_all(const Cameras& cameras, stream::Publisher& publisher, const Options& options, const std::atomic<bool>& stop) {
   Course out;
@@ -121,7 +152,13 @@ Course stream_all(const Cameras& cameras, stream::Publisher& publisher, const Op
   MachineClock clock;
   const double epoch_s = host_time_s(), before_s = processor_time_s();
   for (const auto& camera : cameras) camera->begin(options.stream.epoch_now ? std::optional(epoch_s) : std::nullopt);
-  out.accounts = stream::run(eyes, frames_of(options, cameras), clock, stop);
+  if (options.stream.poses.empty()) {
+    out.accounts = stream::run(eyes, frames_of(options, cameras), clock, stop);
+  } else {
+    run::PoseLines poses(options.stream.poses);
+    out.accounts = {follow(*cameras.front(), poses, options, frames_of(options, cameras), stop)};
+    out.poses_end_s = poses.last_s();
+  }
   out.seconds = clock.now_s(), out.processor_s = processor_time_s() - before_s;
   out.readers = publisher.readers();
   constexpr double at_most_s = 5, interrupted_s = 0.3;
@@ -150,6 +187,7 @@ files::Json course_json(const Course& course, const Cameras& cameras, const Outl
   for (const auto& [name, type] : outlets.types()) topics.set(name, type);
   files::Json out = files::Json::object();
   for (const auto& [key, value] : carrier.place) out.set(key, value);
+  if (course.poses_end_s) out.set("poses_end_s", *course.poses_end_s);
   return out.set("scene", cameras.front()->inputs().scene.name)
       .set("to", carrier.name)
       .set("cameras", std::move(all))
@@ -167,6 +205,11 @@ std::string course_text(const Course& course, const Cameras& cameras, const Outl
   std::string out;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const stream::Account& account = course.accounts[i];
+    if (course.poses_end_s) {
+      out += fmt::format("{}: {} frame{} in {:.1f} s, by poses up to {:g} s\n", cameras[i]->options().name, account.sent,
+                         account.sent == 1 ? "" : "s", course.seconds, *course.poses_end_s);
+      continue;
+    }
     out +=
         fmt::format("{}: {} frame{} in {:.1f} s, {} dropped; late by {:.1f} ms at most, by {:.1f} ms in 99 % of the frames\n",
                     cameras[i]->options().name.empty() ? "camera" : cameras[i]->options().name, account.sent, account.sent == 1 ? "" : "s",
@@ -178,7 +221,7 @@ std::string course_text(const Course& course, const Cameras& cameras, const Outl
 }
 
 /// What did not go as it should.
-void tell_losses(const Course& course, const Outlets& outlets, Remarks& remarks) {
+void tell_losses(const Course& course, const Cameras& cameras, const Outlets& outlets, const Options& options, Remarks& remarks) {
   std::uint64_t sent = 0, dropped = 0;
   for (const stream::Account& one : course.accounts) sent += one.sent, dropped += one.dropped;
   if (dropped > 0)
@@ -186,6 +229,11 @@ void tell_losses(const Course& course, const Outlets& outlets, Remarks& remarks)
         fmt::format("warning: {} of {} frames were dropped: they were not ready when the next ones were due\n  a lower --rate, "
                     "fewer --topics or fewer pixels (camera.readout.binning) help\n",
                     dropped, sent + dropped));
+  if (!options.stream.poses.empty() && sent == 0)
+    remarks.tell(
+        fmt::format("warning: no frame was sent: {}\n  expected lines of t x y z qx qy qz qw for {:g} s and more, which a frame takes\n",
+                    course.poses_end_s ? fmt::format("the poses end at {:g} s", *course.poses_end_s) : "there are no poses",
+                    1 / cameras.front()->rate_hz()));
   if (outlets.refused > 0)
     remarks.tell(fmt::format("warning: {} messages were not sent to all readers: some were too far behind\n", outlets.refused));
   if (!course.delivered) remarks.tell("warning: not all readers had all of the last messages when the stream ended\n");
@@ -202,6 +250,7 @@ std::string beginning_text(const Outlets& outlets, const Carrier& carrier, const
 
 int run_stream(const Options& options) {
   Remarks remarks;
+  refuse_with_poses(options);
   const Carrier carrier = open_carrier(options);
   const NameChoice chosen = choose_scene(options.words[0]);
   remarks.tell(run::note_of(chosen));
@@ -215,7 +264,7 @@ int run_stream(const Options& options) {
   const StopRequest stop(&now.stop);
   talk(beginning_text(outlets, carrier, options));
   const Course course = stream_all(cameras, *carrier.publisher, options, now.stop);
-  tell_losses(course, outlets, remarks);
+  tell_losses(course, cameras, outlets, options, remarks);
   const bool interrupted = stop.signal() != 0 && bounded;
   if (options.json)
     print(files::json_text(remarks.put(course_json(course, cameras, outlets, carrier).set("interrupted", interrupted)), 2) + "\n");

@@ -54,8 +54,17 @@ void StreamedCamera::offer(Outlets& outlets) {
 
 void StreamedCamera::simulate(std::uint64_t frame) {
   if (simulated_ == frame) return;
-  simulator_.frame(frame, frame_);
+  request_.index = frame;
+  if (request_.camera.empty())
+    simulator_.frame(frame, frame_);
+  else
+    simulator_.frame(request_, frame_);
   simulated_ = frame;
+}
+
+void StreamedCamera::place(std::vector<CameraKeyframe> keyframes) {
+  request_.camera = std::move(keyframes);
+  simulated_.reset();
 }
 
 void StreamedCamera::prepare() {
@@ -72,14 +81,13 @@ void StreamedCamera::begin(std::optional<double> epoch_s) {
   messages_ = Messages(in_.scene, in_.camera, options);
 }
 
-double StreamedCamera::due_s(std::uint64_t frame) const {
-  const double by_its_clock = static_cast<double>(frame) / rate_hz() + ready_s_;
-  return by_its_clock / (1 + pacing_.drift) + pacing_.latency_s;
-}
+double StreamedCamera::ready_at_s(std::uint64_t frame) const { return static_cast<double>(frame) / rate_hz() + ready_s_; }
+
+double StreamedCamera::due_s(std::uint64_t frame) const { return ready_at_s(frame) / (1 + pacing_.drift) + pacing_.latency_s; }
 
 void StreamedCamera::make(std::uint64_t frame) {
   simulate(pacing_.first_frame + frame);
-  messages_.of(frame_, in_.scene, made_);
+  messages_.of(frame_, request_.camera.empty() ? in_.scene : placed_scene(in_.scene, in_.camera, request_), made_);
 }
 
 void StreamedCamera::send() {

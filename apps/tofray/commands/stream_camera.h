@@ -51,6 +51,10 @@ class StreamedCamera : public stream::Eye {
   void offer(Outlets& outlets);
   /// Simulates the first frame, which may take longer than others.
   void prepare();
+  /// When the camera could send a frame, by its own clock [s].
+  [[nodiscard]] double ready_at_s(std::uint64_t frame) const;
+  /// Where the camera is in the frames that follow, in the place of where the scene has it.
+  void place(std::vector<CameraKeyframe> keyframes);
   /// @param epoch_s  of all stamps, where they are not what was asked for
   void begin(std::optional<double> epoch_s);
 
@@ -74,6 +78,7 @@ class StreamedCamera : public stream::Eye {
   bool owns_clock_ = true;  ///< of several cameras the first one sends /clock
   Frame frame_;
   std::optional<std::uint64_t> simulated_;  ///< which one that is
+  FrameRequest request_;                    ///< where the camera is placed
   double ready_s_ = 0;                      ///< from a frame's start until a camera could send it
   bool said_static_ = false;
   std::vector<Message> made_;
