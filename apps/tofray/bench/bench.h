@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,16 +42,20 @@ class Contender {
   [[nodiscard]] files::Json stage_ms();
   /// The same frames again, each written to another place.
   [[nodiscard]] files::Json other_places();
-  /// Median time until a simulator can compute [ms]: of another lens, whose rays
-  /// nobody has yet, and of another sensor behind the same lens; its lights and meshes are those of this one.
+  /// Time until a simulator can compute [ms]: from nothing, and the median of another lens, whose rays nobody has yet, of another sensor behind
+  /// the same lens, and of another scene before the same camera; its lights and meshes are those of this one.
   [[nodiscard]] files::Json set_up_ms() const;
   void step_into(Frame& place, bool timed);
+  /// Lets go of what simulators before have left. @return the time
+  static std::chrono::steady_clock::time_point begin();
 
   run::Loaded in_;
   std::string scene_;
   SimulatorOptions options_;
   double pixels_;
+  std::chrono::steady_clock::time_point begun_ = begin();
   Simulator simulator_;
+  double from_nothing_ms_;
   std::vector<Frame> frames_;  ///< as many as are written in turn
   std::uint64_t next_ = 0;
   std::vector<double> ms_;
