@@ -41,6 +41,8 @@ GOALS: Mapping[str, Mapping[str, Goal]] = {
         "bench-mesh": no_slower(2),
     },
     "set-up": {
+        "bench-primitives, from nothing": at_most(5.0),
+        "bench-primitives, another scene": at_most(0.2),
         "bench-primitives, another lens": no_slower(2),
         "bench-primitives, another number of the sensor": no_slower(2),
         "bench-mesh, another lens": no_slower(2),
