@@ -67,11 +67,12 @@ struct Sample::Form {
 namespace {
 
 Per per_of(const Node& node) {
-  const std::pair<const char*, Per> names[] = {{"set", Per::set}, {"device", Per::device}, {"scene", Per::scene}, {"view", Per::view}};
+  const std::pair<const char*, Per> names[] = {
+      {"set", Per::set}, {"device", Per::device}, {"scene", Per::scene}, {"view", Per::view}, {"frame", Per::view}};
   for (const auto& [name, per] : names)
     if (node.kind == Node::Kind::scalar && node.text == name) return per;
   base::fail(node.place, "`per` is not what belongs here",
-             "got " + yaml::describe(node) + ", expected set, device, scene or view: what the value is drawn anew for");
+             "got " + yaml::describe(node) + ", expected set, device, scene, view or frame: what the value is drawn anew for");
 }
 
 /// The form's key; npos where the map is none. @throws Error where something else stands beside a form

@@ -22,7 +22,7 @@
 /// Forms: maps such as {uniform: [1 m, 3 m]} that stand for a value by chance, and their values for one sample.
 namespace tofray::dataset {
 
-/// What a form is drawn anew for.
+/// What a form is drawn anew for. A view has one frame: `per: frame` says the same.
 enum class Per : std::uint8_t { set, device, scene, view };
 
 /// What is the same for all samples of a set: combinations of its grids, rows of its tables, files of its patterns.

@@ -48,7 +48,7 @@ Json form_schema() {
   Json all = Json::array({expression});
   for (const std::string& name : yaml::forms_of_sets()) {
     if (name == "table") continue;  // below let alone
-    Json keys{{name, argument_of(name)}, {"per", {{"enum", {"set", "device", "scene", "view"}}}}};
+    Json keys{{name, argument_of(name)}, {"per", {{"enum", {"set", "device", "scene", "view", "frame"}}}}};
     if (name == "normal") keys["within"] = list_schema(2, 2);
     if (name == "choice" || name == "files") keys["weights"] = list_schema(1, 10'000);
     all.push_back(object_schema(std::move(keys), {name}));
@@ -125,7 +125,7 @@ std::string schema_json() {
   Json set = Json::parse(load::schema_of(set_form()));
   const OpenScene scene(Json::parse(load::schema_json("scene")));
   set["properties"]["scene"]["allOf"] = Json::array({scene.scene()});
-  const Json table = object_schema({{"table", argument_of("table")}, {"per", {{"enum", {"set", "device", "scene", "view"}}}}}, {"table"});
+  const Json table = object_schema({{"table", argument_of("table")}, {"per", {{"enum", {"set", "device", "scene", "view", "frame"}}}}}, {"table"});
   const Json named{{"anyOf", Json::array({reference_to("form"), table, {{"type", {"string", "number"}}}})}};
   set["properties"]["let"]["allOf"][0] = {{"type", "object"}, {"additionalProperties", named}};
   set["properties"]["set"]["allOf"][0] = {{"type", "object"}};

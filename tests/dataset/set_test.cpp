@@ -109,6 +109,9 @@ TEST(set, draws_anew_for_what_per_says) {
   const auto seed = [](const std::string& yaml) { return yaml.substr(yaml.find("patterns:"), 40); };
   EXPECT_NE(seed(one), seed(other));
   EXPECT_EQ(seed(one), seed(again));
+  std::string by_frame = text;
+  by_frame.replace(by_frame.find("per: view"), 9, "per: frame");  // a view has one
+  EXPECT_EQ(Written(by_frame).set().scene_yaml(5, 1), set.scene_yaml(5, 1));
   EXPECT_NE(set.noise_seed(5, 0), set.noise_seed(5, 1));
   EXPECT_NE(set.noise_seed(5, 0), set.noise_seed(6, 0));
 }
@@ -243,7 +246,7 @@ TEST(set, that_is_wrong_is_refused_with_its_line_and_column) {
       {in_scene("{uniform: [1 cm, 3 cmm]}"), "\"cmm\" is no unit"},
       {in_scene("{uniform: [1 cm, much]}"), "\"much\" is no number"},
       {in_scene("{uniform: [1 cm, 3 cm], pre: view}"), "did you mean \"per\""},
-      {in_scene("{uniform: [1 cm, 3 cm], per: week}"), "expected set, device, scene or view"},
+      {in_scene("{uniform: [1 cm, 3 cm], per: week}"), "expected set, device, scene, view or frame"},
       {in_scene("{uniform: [1 cm, 3 cm], within: [1 cm, 2 cm]}"), "`within` stands beside uniform"},
       {in_scene("{uniform: [1 cm, 3 cm], weights: [1, 2]}"), "`weights` stands beside uniform"},
       {in_scene("{uniform: [1 cm, 3 cm], even: [1 cm, 2 cm]}"), "two forms stand in one map"},
