@@ -38,7 +38,12 @@ def _copied(value: Any, memo: dict[int, Any]) -> Any:
     if kind in _UNCHANGING:
         return value
     if kind is list:
-        return [one if type(one) in _UNCHANGING else _copied(one, memo) for one in value]
+        if (known := memo.get(id(value))) is not None:
+            return known
+        out: list[Any] = []
+        memo[id(value)] = out  # of a list that is in itself
+        out.extend(one if type(one) in _UNCHANGING else _copied(one, memo) for one in value)
+        return out
     if kind is tuple and all(type(one) in _UNCHANGING for one in value):
         return value
     return copy.deepcopy(value, memo)
