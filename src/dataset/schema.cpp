@@ -125,7 +125,8 @@ std::string schema_json() {
   Json set = Json::parse(load::schema_of(set_form()));
   const OpenScene scene(Json::parse(load::schema_json("scene")));
   set["properties"]["scene"]["allOf"] = Json::array({scene.scene()});
-  const Json table = object_schema({{"table", argument_of("table")}, {"per", {{"enum", {"set", "device", "scene", "view", "frame"}}}}}, {"table"});
+  const Json table =
+      object_schema({{"table", argument_of("table")}, {"per", {{"enum", {"set", "device", "scene", "view", "frame"}}}}}, {"table"});
   const Json named{{"anyOf", Json::array({reference_to("form"), table, {{"type", {"string", "number"}}}})}};
   set["properties"]["let"]["allOf"][0] = {{"type", "object"}, {"additionalProperties", named}};
   set["properties"]["set"]["allOf"][0] = {{"type", "object"}};

@@ -98,6 +98,11 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+void move_aside(Object& object, double by_m) {
+  if (object.keyframes.empty()) object.position[0] += by_m;
+  for (Keyframe& key : object.keyframes) key.position[0] += by_m;
+}
+
 double pixels_of(const Sensor& image) { return static_cast<double>(image.width) * image.height; }
 
 }  // namespace
@@ -204,7 +209,7 @@ files::Json Contender::set_up_ms() const {
       .set("another_lens", median([](Camera& camera, Scene&, double by) { camera.lens.fx_px *= by; }))
       .set("another_sensor_number", median([](Camera& camera, Scene&, double by) { camera.adc.step_e_per_dn *= by; }))
       .set("another_scene", median([](Camera&, Scene& scene, double by) {
-             for (Object& object : scene.objects) object.position[0] += by - 1;
+             for (Object& object : scene.objects) move_aside(object, by - 1);
            }));
 }
 
