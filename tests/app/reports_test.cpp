@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "backend/cpu/sets.h"
 #include "files/json.h"
 #include "files/npz.h"
@@ -83,11 +85,11 @@ TEST(bench, measures_what_it_says) {
 
 TEST(bench, takes_objects_that_have_keyframes_or_a_velocity) {
   const Folder folder;
-  write_file(folder / "moved.yaml",
-             "camera: {profile: pico-flexx}\nobjects:\n"
-             "  - sphere: {center: [0, 0, 1], radius: 10 cm, reflectivity: 0.5, keyframes: [{time: 0 s, position: [0, 0, 0]}, {time: 1 s, "
-             "position: [0.1, 0, 0]}]}\n"
-             "  - sphere: {center: [0, 0, 2], radius: 10 cm, reflectivity: 0.5, velocity: [0, 1 m/s, 0]}\n");
+  std::ofstream(folder / "moved.yaml") << "camera: {profile: pico-flexx}\nobjects:\n"
+                                          "  - sphere: {center: [0, 0, 1], radius: 10 cm, reflectivity: 0.5, keyframes: [{time: 0 s, "
+                                          "position: [0, 0, 0]}, {time: 1 s, position: "
+                                          "[0.1, 0, 0]}]}\n"
+                                          "  - sphere: {center: [0, 0, 2], radius: 10 cm, reflectivity: 0.5, velocity: [0, 1 m/s, 0]}\n";
   const Result result =
       run(with_small_sensor({"bench", "moved.yaml", "--frames", "2", "--threads", "1", "--json"}), in_folder(folder.path()));
   EXPECT_EQ(result.code, 0) << result.err;
