@@ -12,7 +12,7 @@
 #include "analysis/one_pixel.h"
 #include "analysis/pixel_budget.h"
 #include "base/constants.h"
-#include "base/readout.h"
+#include "camera/image_camera.h"
 #include "camera/lens.h"
 #include "simulator/exposure.h"
 #include "tofray/error.h"
@@ -81,10 +81,10 @@ BudgetRequest complete_request(BudgetRequest request) {
 }
 
 BudgetCamera::BudgetCamera(const Camera& profile, const BudgetRequest& request) {
-  Camera camera = profile;
-  if (request.temperature_celsius) camera.temperature.celsius = *request.temperature_celsius;
-  (void)image_size(camera);  // what is wrong with the camera is said here
-  camera = base::as_read_out(camera);
+  Camera warmed = profile;
+  if (request.temperature_celsius) warmed.temperature.celsius = *request.temperature_celsius;
+  (void)image_size(warmed);  // what is wrong with the camera is said here
+  const camera::ImageCamera camera(warmed);
   if (std::none_of(camera.mode.sequence.begin(), camera.mode.sequence.end(), is_lit))
     throw Error(ErrorKind::bad_input, "error: no raw frame of the mode is lit\n  expected some, for there is no range without");
   law_ = camera.auto_exposure;

@@ -11,10 +11,10 @@
 #include "analysis/one_pixel.h"
 #include "analysis/reach.h"
 #include "base/constants.h"
-#include "base/readout.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "camera/lens.h"
 #include "tofray/error.h"
 #include "tofray/simulator.h"
@@ -37,7 +37,7 @@ double angle_between(const Lens& lens, const camera::Point2& one, const camera::
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / pi;
 }
 
-void report_view(const Camera& camera, CameraReport& out) {
+void report_view(const camera::ImageCamera& camera, CameraReport& out) {
   const Lens& lens = camera.lens;
   const double right = camera.sensor.width - 0.5, down = camera.sensor.height - 0.5;
   const double u = 0.5 * (right - 0.5), v = 0.5 * (down - 0.5);
@@ -47,7 +47,7 @@ void report_view(const Camera& camera, CameraReport& out) {
 }
 
 /// The camera with its view in fewer pixels, where it has very many: shares of them are all that is asked for.
-Camera coarser(Camera camera) {
+camera::ImageCamera coarser(camera::ImageCamera camera) {
   constexpr double enough = 1 << 18;
   Sensor& sensor = camera.sensor;
   const int by = std::min({std::max(1, static_cast<int>(std::sqrt(sensor.width * (sensor.height / enough)))), sensor.width, sensor.height});
@@ -58,7 +58,7 @@ Camera coarser(Camera camera) {
 }
 
 /// What of a wall at 1 m the light source reaches.
-void report_light(const Camera& camera, CameraReport& out) {
+void report_light(const camera::ImageCamera& camera, CameraReport& out) {
   const Truth seen = Simulator(Scene(), camera, analysis::expected_values(Stage::power))
                          .frame(0, analysis::wall_at(camera.sensor.width, camera.sensor.height, 1, 1))
                          .truth;
@@ -150,7 +150,7 @@ CameraReport camera_report(const Camera& profile, const CameraQuestion& asked) {
   if (question.reflectivities.empty()) question.reflectivities = {0.2, 0.8};
   if (question.ambients.empty()) question.ambients = {AmbientCase(), full_sun()};
   check_question(question);
-  Camera camera = base::as_read_out(profile);
+  camera::ImageCamera camera(profile);
   camera.auto_exposure = {};  // exposures of the mode
   CameraReport out;
   out.width = camera.sensor.width, out.height = camera.sensor.height;

@@ -72,7 +72,7 @@ double mean_of_numbers(std::size_t count, const Of& of) {
 }
 
 void check_region(const Camera& camera, const PixelRegion& r) {
-  const Sensor image = base::as_read_out(camera).sensor;
+  const base::ImageExtent image = base::image_extent(camera);
   if (r.u0 < 0 || r.v0 < 0 || r.u1 < r.u0 || r.v1 < r.v0 || r.u1 >= image.width || r.v1 >= image.height)
     throw Error(ErrorKind::bad_input,
                 fmt::format("error: the pixels {},{} to {},{} are no part of the image\n  expected columns of 0 to {} and rows "

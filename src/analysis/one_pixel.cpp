@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/one_pixel.h"
+#include "camera/image_camera.h"
 
 #include <cmath>
 
@@ -25,7 +26,7 @@ Geometry wall_at(int width, int height, double z, double reflectivity, double an
   return out;
 }
 
-Camera pixel_alone(Camera camera, double u, double v) {
+camera::ImageCamera pixel_alone(camera::ImageCamera camera, double u, double v) {
   camera.sensor.width = camera.sensor.height = 1;
   camera.lens.cx_px -= u, camera.lens.cy_px -= v;
   camera.lens.scatter = {}, camera.interference = {}, camera.auto_exposure = {};

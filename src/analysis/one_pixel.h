@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "camera/image_camera.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
 
@@ -17,6 +18,6 @@ Geometry wall_at(int width, int height, double z, double reflectivity, double an
 /// The camera with one pixel alone, which is like the mean of all and looks where pixel (u, v) does; neighbours, other cameras, frames
 /// before and exposures of others do nothing to it.
 /// @param camera  as it is read out
-Camera pixel_alone(Camera camera, double u, double v);
+camera::ImageCamera pixel_alone(camera::ImageCamera camera, double u, double v);
 
 }  // namespace tofray::analysis

@@ -181,7 +181,7 @@ PixelChain pixel_chain(const PixelArrays& arrays, const Camera* camera, bool noi
   read_depth(arrays, camera, pixel, chain);
   if (chain.raw_frames.empty()) return chain;
   const Camera profile = camera == nullptr ? any_camera(arrays, chain) : *camera;
-  const Sensor image = base::as_read_out(profile).sensor;
+  const base::ImageExtent image = base::image_extent(profile);
   if (image.width != arrays.width || image.height != arrays.height || profile.mode.sequence.size() != chain.raw_frames.size())
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: error: the camera is not the one of the arrays\n  got an image of {} x {} pixels with {} raw frames, "

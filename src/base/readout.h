@@ -5,10 +5,12 @@
 
 namespace tofray::base {
 
-/// The camera whose pixels are those of the image: region and binning are in its numbers, and nothing is left to be binned. A camera that
-/// reads all of its pixels one by one is itself.                                                        [theory: eq. 4.24 to 4.26]
+/// Pixels of the image, along a row and along a column: of the region that is read, binned.
+struct ImageExtent {
+  int width, height;
+};
 /// @param camera  was seen to be good
-Camera as_read_out(const Camera& camera);
+ImageExtent image_extent(const Camera& camera);
 
 /// Start of each raw frame after the start of its frame [s]: an exposure begins when the one before has been read out.
 std::vector<double> raw_frame_starts_s(const std::vector<double>& integration_time_s, double readout_time_s);

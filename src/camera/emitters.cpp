@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "camera/area_points.h"
+#include "camera/image_camera.h"
 #include "num/setup_math.h"
 
 namespace tofray::camera {
@@ -39,13 +40,23 @@ void append_emitters(const Illumination& light, std::vector<Illumination>& out) 
   }
 }
 
+std::vector<Illumination> emitters_of(const Camera& camera) {
+  std::vector<Illumination> out;
+  for (const Illumination& light : camera.illumination) append_emitters(light, out);
+  return out;
+}
+
 }  // namespace
 
 Camera with_emitters(const Camera& camera) {
   Camera out = camera;
-  out.illumination.clear();
-  for (const Illumination& light : camera.illumination) append_emitters(light, out.illumination);
+  out.illumination = emitters_of(camera);
   return out;
+}
+
+ImageCamera with_emitters(ImageCamera camera) {
+  camera.illumination = emitters_of(camera);
+  return camera;
 }
 
 }  // namespace tofray::camera

@@ -13,6 +13,7 @@
 #include "base/readout.h"
 #include "base/shared.h"
 #include "camera/emitters.h"
+#include "camera/image_camera.h"
 #include "camera/other_camera.h"
 #include "camera/read_curve.h"
 #include "camera/subpixel.h"
@@ -34,7 +35,7 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
     : sensor_pixels_(camera.sensor),
       one_pixel_(camera.pixel),
       readout_(camera.readout),
-      camera_(with_emitters(base::as_read_out(camera))),
+      camera_(with_emitters(ImageCamera(camera))),
       modulations_(modulations_of(camera.mode)),
       scatter_(camera_.lens.scatter, camera_.sensor, camera_.pixel) {
   if (camera.mode.sequence.size() > flow::max_raw_frames) throw Error(ErrorKind::limit, "error: more than 64 raw frames in one sequence");

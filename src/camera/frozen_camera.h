@@ -7,6 +7,7 @@
 
 #include "camera/frozen_lens.h"
 #include "camera/frozen_scatter.h"
+#include "camera/image_camera.h"
 #include "camera/views.h"
 #include "camera/waveform.h"
 #include "tofray/camera.h"
@@ -87,7 +88,7 @@ class FrozenCamera {
   Sensor sensor_pixels_;  // the whole sensor, and what is read of it
   Pixel one_pixel_;
   Readout readout_;
-  Camera camera_;  // as it is read out
+  ImageCamera camera_;
   Modulations modulations_;
   std::shared_ptr<const FrozenLens> middle_;
   std::vector<std::shared_ptr<const FrozenLens>> samples_;  // within the pixel

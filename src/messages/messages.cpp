@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/readout.h"
 #include "base/text.h"
+#include "camera/image_camera.h"
 #include "files/json.h"
 #include "messages/parts.h"
 #include "tofray/error.h"
@@ -30,7 +30,7 @@ using messages::Size;
 }
 
 /// The least power of two at which an amplitude of the largest codes that there are fits into 16 bits: A is at most √2 times the largest |A−B|.
-double natural_step_e(const Camera& camera) {
+double natural_step_e(const camera::ImageCamera& camera) {
   const double codes = std::max(camera.adc.mid_code, std::ldexp(1, camera.adc.bits) - 1 - camera.adc.mid_code);
   const double most_e = std::sqrt(2) * codes * camera.adc.step_e_per_dn / camera.mode.gain;
   double step = 1;
@@ -46,7 +46,7 @@ bool is_name(const std::string& name) {
 }
 
 /// Checked, and nothing left open.
-MessageOptions completed(MessageOptions options, const Camera& camera) {
+MessageOptions completed(MessageOptions options, const camera::ImageCamera& camera) {
   const messages::Profile& profile = messages::profile_of(options.driver);
   if (options.name.empty())
     options.name = profile.name;
@@ -90,7 +90,7 @@ Times times_of(const Frame& frame, StampAt at) {
 
 struct Messages::Impl {
   Scene scene;
-  Camera camera;  ///< as it is read out
+  camera::ImageCamera camera;
   MessageOptions options;
   std::vector<Plan> plans;
   std::vector<Topic> topics;
@@ -99,8 +99,7 @@ struct Messages::Impl {
   Lens pinhole;
   std::vector<std::string> raw_topics;
 
-  Impl(const Scene& of, const Camera& by, const MessageOptions& wanted)
-      : scene(of), camera(base::as_read_out(by)), options(completed(wanted, camera)) {
+  Impl(const Scene& of, const Camera& by, const MessageOptions& wanted) : scene(of), camera(by), options(completed(wanted, camera)) {
     const auto phases = static_cast<int>(camera.mode.sequence.size());
     for (const char* frame : messages::profile_of(options.driver).frames) frames.push_back(fmt::format(fmt::runtime(frame), options.name));
     plans = messages::plan_of(options, phases);

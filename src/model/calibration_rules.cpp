@@ -17,7 +17,7 @@ namespace {
 
 std::string megahertz(double hz) { return base::quantity_text(hz, "1 MHz"); }
 
-void check_pixels(const FrequencyCalibration& one, const Sensor& image, Complaints& complaints) {
+void check_pixels(const FrequencyCalibration& one, const base::ImageExtent& image, Complaints& complaints) {
   const std::vector<double>& phases = one.pixel_phase_rad;
   const std::string at = " at " + megahertz(one.modulation_frequency_hz);
   if (one.pixel_phase_file.empty() != phases.empty()) {
@@ -65,7 +65,7 @@ void calibration_is_of_the_camera(const Camera& camera, Complaints& complaints) 
     if (base::calibration_at(known, one.modulation_frequency_hz) != &one)
       complaints.add(one, &one.modulation_frequency_hz, "the calibration has " + all.back() + " twice",
                      "expected each modulation frequency once");
-    check_pixels(one, base::as_read_out(camera).sensor, complaints);
+    check_pixels(one, base::image_extent(camera), complaints);
   }
   for (const RawFrame& frame : camera.mode.sequence)
     if (frame.lit && base::calibration_at(known, frame.modulation_frequency_hz) == nullptr)

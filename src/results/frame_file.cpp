@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "base/readout.h"
+#include "camera/image_camera.h"
 #include "files/atomic_file.h"
 #include "results/array_table.h"
 #include "results/meta.h"
@@ -40,21 +40,25 @@ NpyShape extents(ArrayShape shape, const Frame& frame, int height, int width) {
 }
 
 /// As OpenCV takes it: 5 numbers, 8 of a rational model, 4 of a fisheye.
-std::vector<double> distortion_of(const Lens& lens) {
+std::vector<double> distortion_of(const camera::ImageCamera& camera) {
+  const Lens& lens = camera.lens;
   if (lens.distortion == Lens::Distortion::fisheye) return {lens.k1, lens.k2, lens.k3, lens.k4};
   std::vector<double> out{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3};
   if (lens.k4 != 0 || lens.k5 != 0 || lens.k6 != 0) out.insert(out.end(), {lens.k4, lens.k5, lens.k6});
   return out;
 }
 
-std::vector<double> matrix_of(const Lens& lens) { return {lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1}; }
+std::vector<double> matrix_of(const camera::ImageCamera& camera) {
+  const Lens& lens = camera.lens;
+  return {lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1};
+}
 
 }  // namespace
 
 FrameArrays::FrameArrays(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const ArrayChoice& choice)
     : time_{frame.truth.time_s},
-      matrix_(matrix_of(base::as_read_out(camera).lens)),
-      distortion_(distortion_of(base::as_read_out(camera).lens)),
+      matrix_(matrix_of(camera::ImageCamera(camera))),
+      distortion_(distortion_of(camera::ImageCamera(camera))),
       pose_(camera_pose.begin(), camera_pose.end()) {
   const auto add = [&](const char* name, const NpyShape& shape, const auto& data, bool there = true) {
     const ArrayRow& row = *find_array(name);

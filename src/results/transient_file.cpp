@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/limits.h"
-#include "base/readout.h"
 #include "base/text.h"
+#include "camera/image_camera.h"
 #include "files/json.h"
 #include "files/npz.h"
 #include "tofray/error.h"
@@ -72,7 +72,7 @@ struct Layout {
   bool bins_last = false;
 };
 
-Layout layout_of(const NamedArray& one, const std::string& where, const Camera& camera) {
+Layout layout_of(const NamedArray& one, const std::string& where, const camera::ImageCamera& camera) {
   const auto height = static_cast<std::size_t>(camera.sensor.height), width = static_cast<std::size_t>(camera.sensor.width);
   NpyShape shape = one.array.shape;
   const std::string name = base::in_quotes(one.name);
@@ -139,7 +139,7 @@ std::optional<TransientBins> transient_of_meta(const std::string& text, const st
 }
 
 Transient parse_transient(std::string_view file, const std::string& where, const Camera& profile, const TransientHints& hints) {
-  const Camera camera = base::as_read_out(profile);
+  const camera::ImageCamera camera(profile);
   const Found found = arrays_of(file, where);
   check_kind(found.histograms, where);
   const Layout layout = layout_of(found.histograms, where, camera);

@@ -11,9 +11,9 @@
 #include <limits>
 #include <optional>
 
-#include "base/readout.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "camera/image_camera.h"
 #include "tofray/camera_report.h"
 
 namespace tofray::run {
@@ -63,7 +63,7 @@ struct View {
 };
 
 View view_of(const Camera& camera) {
-  const Camera read_out = base::as_read_out(camera);
+  const camera::ImageCamera read_out(camera);
   const Sensor& sensor = read_out.sensor;
   const Lens& lens = read_out.lens;
   const auto half = [](double center, int pixels, double focal) {

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/readout.h"
 #include "camera/frozen_scatter.h"
+#include "camera/image_camera.h"
 
 namespace tofray::simulator {
 
 namespace {
 
 /// From how many pixels away something comes.
-int reach(const Camera& image) {
+int reach(const camera::ImageCamera& image) {
   int out = camera::scattered_radius(image.lens.scatter);
   if (image.pixel.crosstalk_left_right > 0 || image.pixel.crosstalk_up_down > 0) ++out;
   return out + (image.pixel.blooming_share > 0 ? 1 : 0);
@@ -38,7 +38,7 @@ void cut_array(const T* from, T* to, ArrayShape shape, const flow::FrameSize& wi
 /// @param sign  −1: the border is taken away
 Camera moved_by(const Camera& profile, const Border& border, int sign) {
   if (!border.any()) return profile;
-  const Camera image = base::as_read_out(profile);
+  const camera::ImageCamera image(profile);
   Camera out = profile;
   Readout& r = out.readout;
   r.left -= sign * border.left * r.binning, r.top -= sign * border.top * r.binning;
@@ -51,7 +51,7 @@ Camera moved_by(const Camera& profile, const Border& border, int sign) {
 
 Border border_of(const Camera& profile) {
   const Readout& r = profile.readout;
-  const Camera image = base::as_read_out(profile);
+  const camera::ImageCamera image(profile);
   const int wanted = reach(image), n = r.binning;
   if (wanted == 0) return {};
   const int right = profile.sensor.width - r.left - image.sensor.width * n,
@@ -62,7 +62,7 @@ Border border_of(const Camera& profile) {
 Camera with_border(const Camera& profile, const Border& border) { return moved_by(profile, border, 1); }
 Camera without_border(const Camera& profile, const Border& border) { return moved_by(profile, border, -1); }
 
-pipeline::Region region_of(const Camera& image, const Border& border) {
+pipeline::Region region_of(const camera::ImageCamera& image, const Border& border) {
   if (!border.any()) return {};
   return {border.left, border.top, image.sensor.width - border.left - border.right, image.sensor.height - border.top - border.bottom};
 }

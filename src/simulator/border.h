@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "camera/image_camera.h"
 #include "flow/frame_view.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"
@@ -22,7 +23,7 @@ Border border_of(const Camera& profile);
 Camera with_border(const Camera& profile, const Border& border);
 Camera without_border(const Camera& profile, const Border& border);
 /// Where the region lies in the image of that camera.
-pipeline::Region region_of(const Camera& image, const Border& border);
+pipeline::Region region_of(const camera::ImageCamera& image, const Border& border);
 
 /// Copies the region of each array that both have.
 /// @param wide    size of the images with the border

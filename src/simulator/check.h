@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "camera/image_camera.h"
 #include "tofray/camera.h"
 #include "tofray/scene.h"
 #include "tofray/simulator.h"
@@ -22,9 +23,9 @@ void check_moving_views(const Scene& scene, const Camera& camera, const Simulato
 /// … and the shapes of meshes that change theirs.
 void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
 /// … and whether the light image, and the rays of samples within pixels, are within their limits.
-void check_light_image(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
+void check_light_image(const Scene& scene, const camera::ImageCamera& camera, const SimulatorOptions& options);
 /// … and the histograms of light by the length of its path.
-void check_transient(const Scene& scene, const Camera& camera);
+void check_transient(const Scene& scene, const camera::ImageCamera& camera);
 /// … and whether light of all sources may stand in one of them: as pixels see it, they have one waveform.
 void check_one_waveform(const pipeline::Setup& setup);
 

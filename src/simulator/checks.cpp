@@ -9,6 +9,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "flow/flow.h"
 #include "model/check.h"
 #include "pipeline/rounds.h"
@@ -27,7 +28,7 @@ std::int64_t movers_of(const Scene& scene) {
 }
 
 /// Images of light that a frame needs at once, at most (backend::place_light); none where light goes straight into raw frames.
-std::int64_t light_images(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+std::int64_t light_images(const Scene& scene, const camera::ImageCamera& camera, const SimulatorOptions& options) {
   const Transport& transport = scene.transport;
   const bool several = options.subpixel > 1, bounces = transport.bounces > 0, scatters = camera::FrozenScatter::spreads(camera);
   if (!several && !bounces && !scatters) return 0;
@@ -96,7 +97,7 @@ void check_changing_triangles(const Scene& scene, const Camera& camera, const Si
            ErrorKind::limit);
 }
 
-void check_light_image(const Scene& scene, const Camera& camera, const SimulatorOptions& options) {
+void check_light_image(const Scene& scene, const camera::ImageCamera& camera, const SimulatorOptions& options) {
   const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height, n = options.subpixel;
   const std::int64_t most_rays = base::limit::subpixel_rays.value;
   if (n > 1 && pixels * n * n > most_rays)
@@ -141,7 +142,7 @@ void check_light_image(const Scene& scene, const Camera& camera, const Simulator
            ErrorKind::limit);
 }
 
-void check_transient(const Scene& scene, const Camera& camera) {
+void check_transient(const Scene& scene, const camera::ImageCamera& camera) {
   const std::int64_t pixels = std::int64_t{camera.sensor.width} * camera.sensor.height, bins = scene.transport.transient.bins;
   const std::int64_t most = base::limit::transient_values.value;
   if (pixels * bins > most)

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "flow/flow.h"
 
 namespace tofray::simulator {
@@ -25,7 +26,7 @@ bool among(const std::string_view (&names)[N], std::string_view name) {
 /// Whether frames have an array.
 class Wanted {
  public:
-  Wanted(const Camera& camera, const SimulatorOptions& options, const Transport& transport)
+  Wanted(const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport)
       : camera_(camera), options_(options), transport_(transport) {}
 
   [[nodiscard]] bool has(std::string_view name, std::string_view part, ArrayWhen when) const {
@@ -49,12 +50,12 @@ class Wanted {
     return name == "gt_object_id" && options_.subpixel > 1 && (asks_for("gt_mixed") || asks_for("gt_object_share"));
   }
 
-  const Camera& camera_;
+  const camera::ImageCamera& camera_;
   const SimulatorOptions& options_;
   const Transport& transport_;
 };
 
-int modulations_of(const Camera& camera) { return static_cast<int>(camera::modulations_of(camera.mode).frequency_hz.size()); }
+int modulations_of(const camera::ImageCamera& camera) { return static_cast<int>(camera::modulations_of(camera.mode).frequency_hz.size()); }
 
 template <class Vector>
 auto* place_of(Vector& array, Stage stage, Stage last) {
@@ -63,7 +64,7 @@ auto* place_of(Vector& array, Stage stage, Stage last) {
 
 }  // namespace
 
-void prepare(Depth& depth, const Camera& camera, const SimulatorOptions& options) {
+void prepare(Depth& depth, const camera::ImageCamera& camera, const SimulatorOptions& options) {
   const Wanted wanted(camera, options, {});
   depth.width = camera.sensor.width, depth.height = camera.sensor.height, depth.modulations = modulations_of(camera);
   const flow::FrameSize size{std::int64_t{depth.width} * depth.height, 1, 0, depth.modulations};
@@ -73,7 +74,7 @@ void prepare(Depth& depth, const Camera& camera, const SimulatorOptions& options
 #undef TOFRAY_RESIZE
 }
 
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
+void prepare(Frame& frame, const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport) {
   const int width = camera.sensor.width, height = camera.sensor.height, phases = static_cast<int>(camera.mode.sequence.size());
   const flow::FrameSize size{std::int64_t{width} * height, phases, transport.transient.bins, modulations_of(camera)};
   const Wanted wanted(camera, options, transport);
@@ -99,7 +100,7 @@ bool asks_for(const SimulatorOptions& options, std::string_view array) {
   return std::find(options.arrays.begin(), options.arrays.end(), array) != options.arrays.end();
 }
 
-Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport) {
+Stage last_stage_of(const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport) {
   const Wanted wanted(camera, options, transport);
   Stage last = Stage::trace;
 #define TOFRAY_LAST(name, part, member, element, shape, stage, when, ...) \
@@ -141,7 +142,7 @@ pipeline::TapStores tap_stores(const flow::FrameView& out, const float* before, 
   return whole_lines && is_lost ? past_caches : all;
 }
 
-FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device) {
+FrameArrays arrays_of(const flow::FrameView& view, const camera::ImageCamera& camera, std::int64_t bins, std::uint64_t index, int device) {
   FrameArrays arrays;
   arrays.index = index, arrays.device = device;
   arrays.modulations = modulations_of(camera);

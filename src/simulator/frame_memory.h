@@ -3,6 +3,7 @@
 #pragma once
 #include <string_view>
 
+#include "camera/image_camera.h"
 #include "flow/frame_view.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"
@@ -13,14 +14,14 @@ namespace tofray::simulator {
 
 /// Gives the arrays their sizes (nothing is allocated anew where they fit) and writes what is the same for all pixels.
 /// @param transport  of the scene; none (as it is fresh) where the light comes from elsewhere
-void prepare(Frame& frame, const Camera& camera, const SimulatorOptions& options, const Transport& transport);
+void prepare(Frame& frame, const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport);
 /// Likewise of a depth frame alone.
 /// @param camera  as it is read out
-void prepare(Depth& depth, const Camera& camera, const SimulatorOptions& options);
+void prepare(Depth& depth, const camera::ImageCamera& camera, const SimulatorOptions& options);
 /// Whether an array is asked for by its name.
 bool asks_for(const SimulatorOptions& options, std::string_view array);
 /// The last stage that any of the arrays of a frame comes from: nothing is computed that nobody sees.
-Stage last_stage_of(const Camera& camera, const SimulatorOptions& options, const Transport& transport);
+Stage last_stage_of(const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);
 flow::FrameView view_of(Depth& depth);
@@ -30,6 +31,6 @@ flow::FrameView view_of(Depth& depth);
 /// @param before  tap_a of the frame before; null: there was none
 pipeline::TapStores tap_stores(const flow::FrameView& out, const float* before, int width, const flow::FrameSize& size);
 /// The same under the public names.
-FrameArrays arrays_of(const flow::FrameView& view, const Camera& camera, std::int64_t bins, std::uint64_t index, int device);
+FrameArrays arrays_of(const flow::FrameView& view, const camera::ImageCamera& camera, std::int64_t bins, std::uint64_t index, int device);
 
 }  // namespace tofray::simulator

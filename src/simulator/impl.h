@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/border.h"
 #include "simulator/engines.h"
@@ -22,9 +23,10 @@ struct Simulator::Impl {
   using Take = std::function<void(const FrameArrays&)>;
 
   Scene scene;
-  simulator::Border border;  ///< what is computed beside the region that is read
-  Camera profile, camera;    ///< as it was given; whose pixels are those that are computed, with the border
-  Camera region_camera;      ///< whose pixels are those of frames
+  simulator::Border border;           ///< what is computed beside the region that is read
+  Camera profile;                     ///< as it was given, and with the border
+  camera::ImageCamera camera;         ///< whose pixels are those that are computed, with the border
+  camera::ImageCamera region_camera;  ///< whose pixels are those of frames
   SimulatorOptions options;
   camera::FrozenCamera frozen_camera;
   scene::FrozenScene frozen_scene;
@@ -112,7 +114,7 @@ struct DeviceFrames::Impl {
   backend::gpu::DeviceMemory memory;
   std::size_t memory_bytes = 0;
   backend::gpu::Slab slab;
-  Camera camera;
+  camera::ImageCamera camera;
   std::vector<std::uint64_t> indices;
   double seconds = 0;
 };

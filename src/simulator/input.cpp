@@ -10,6 +10,7 @@
 #include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "model/tables.h"
 #include "simulator/check.h"
 #include "simulator/checks.h"
@@ -30,7 +31,7 @@ const typename Vector::value_type* data_of(const Vector& array) {
 /// Looks at the arrays of one input, each called by its name behind `path`.
 class Look {
  public:
-  Look(const std::string& path, int width, int height, int moments, const Camera& camera)
+  Look(const std::string& path, int width, int height, int moments, const camera::ImageCamera& camera)
       : path_(path),
         width_(static_cast<std::size_t>(camera.sensor.width)),
         pixels_(width_ * static_cast<std::size_t>(camera.sensor.height)) {
@@ -81,7 +82,7 @@ class Look {
 
 }  // namespace
 
-OwnInput input_of(const Geometry& seen, const Camera& camera) {
+OwnInput input_of(const Geometry& seen, const camera::ImageCamera& camera) {
   const Look look("geometry", seen.width, seen.height, seen.moments, camera);
   look.size(seen.z_m, look.pixels(), "z_m");
   look.size(seen.normal, 3 * look.pixels(), "normal");
@@ -158,7 +159,7 @@ std::size_t check_phasors(const PixelLight& light, const Look& look, std::size_t
 
 }  // namespace
 
-OwnInput input_of(const PixelLight& light, const Camera& camera) {
+OwnInput input_of(const PixelLight& light, const camera::ImageCamera& camera) {
   const Look look("pixel light", light.width, light.height, light.moments, camera);
   OwnInput own;
   own.light_of_path = lights_of_paths(light, camera.illumination.size());
@@ -187,7 +188,7 @@ OwnInput input_of(const PixelLight& light, const Camera& camera) {
 
 namespace {
 
-void check_histograms(const Transient& light, const Camera& camera) {
+void check_histograms(const Transient& light, const camera::ImageCamera& camera) {
   const Look look("transient", light.width, light.height, 1, camera);
   within(light.bins, {1, 1e6}, "transient.bins");
   within(light.first_m, bins_m, "transient.first_m"), within(light.bin_width_m, bin_width_m, "transient.bin_width_m");
@@ -205,7 +206,7 @@ void check_histograms(const Transient& light, const Camera& camera) {
 
 }  // namespace
 
-OwnInput input_of(const Transient& light, const Camera& camera, const pipeline::Setup& setup) {
+OwnInput input_of(const Transient& light, const camera::ImageCamera& camera, const pipeline::Setup& setup) {
   check_histograms(light, camera);
   if (camera.illumination.empty()) refuse("the camera has no light source", "a histogram does not say how its light is modulated");
   const std::vector<double> frequencies = camera::modulations_of(camera.mode).frequency_hz;
@@ -230,7 +231,7 @@ OwnInput input_of(const Raw& raw) {
 
 tofray::ImageSize tofray::image_size(const Camera& camera) {
   simulator::check(camera);
-  const Sensor image = base::as_read_out(camera).sensor;
+  const base::ImageExtent image = base::image_extent(camera);
   return {image.width, image.height};
 }
 

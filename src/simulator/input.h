@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "camera/image_camera.h"
 #include "pipeline/enter.h"
 #include "simulator/histogram.h"
 #include "tofray/camera.h"
@@ -20,10 +21,10 @@ struct OwnInput {
 
 /// Where the arrays of one's own are, once all of them are seen to be good.
 /// @throws Error (bad_input) naming the first array or value that is not
-OwnInput input_of(const Geometry& seen, const Camera& camera);
-OwnInput input_of(const PixelLight& light, const Camera& camera);
+OwnInput input_of(const Geometry& seen, const camera::ImageCamera& camera);
+OwnInput input_of(const PixelLight& light, const camera::ImageCamera& camera);
 /// @param setup  of the camera, with its phasors
-OwnInput input_of(const Transient& light, const Camera& camera, const pipeline::Setup& setup);
+OwnInput input_of(const Transient& light, const camera::ImageCamera& camera, const pipeline::Setup& setup);
 /// The same of raw data; process() has looked at them.
 OwnInput input_of(const Raw& raw);
 

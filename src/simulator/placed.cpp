@@ -185,7 +185,7 @@ std::vector<double> exposure_times(const Camera& camera, double start_s) {
   simulator::within(start_s, {-1e6, 1e6}, "start_s");
   std::vector<double> exposed;
   for (const RawFrame& one : camera.mode.sequence) exposed.push_back(one.integration_time_s);
-  std::vector<double> out = base::raw_frame_starts_s(exposed, base::as_read_out(camera).readout_time_s);
+  std::vector<double> out = base::raw_frame_starts_s(exposed, camera.readout_time_s);
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = start_s + out[k] + 0.5 * exposed[k];
   return out;
 }

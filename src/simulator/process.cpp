@@ -4,6 +4,7 @@
 #include "base/readout.h"
 #include "base/recording.h"
 #include "camera/frozen_camera.h"
+#include "camera/image_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
 #include "simulator/engines.h"
@@ -20,7 +21,7 @@ namespace {
 /// The camera with the sequence that the raw data says it was taken with.
 Camera camera_of(const Raw& raw, const Camera& profile) {
   const auto complain = [](const std::string& what) { throw Error(ErrorKind::bad_input, "error: " + what); };
-  const Sensor image = base::as_read_out(profile).sensor;
+  const base::ImageExtent image = base::image_extent(profile);
   if (raw.width != image.width || raw.height != image.height) {
     complain("raw data has " + std::to_string(raw.width) + " × " + std::to_string(raw.height) + " pixels, the camera profile " +
              std::to_string(image.width) + " × " + std::to_string(image.height));
@@ -65,7 +66,7 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   pipeline::Job job{};
   simulator::set_filter(camera.decoding.filter, job);
   Depth depth;
-  simulator::prepare(depth, base::as_read_out(camera), options);
+  simulator::prepare(depth, camera::ImageCamera(camera), options);
   std::vector<float> scratch(static_cast<std::size_t>(pipeline::scratch_floats(setup, job.filter)));
   job.scratch = scratch.data();
   job.out = simulator::view_of(depth);

@@ -11,9 +11,9 @@
 
 #include "base/limits.h"
 #include "base/parallel.h"
-#include "base/readout.h"
 #include "base/srgb.h"
 #include "base/text.h"
+#include "camera/image_camera.h"
 #include "flow/flow.h"
 #include "model/tables.h"
 #include "simulator/check.h"
@@ -370,7 +370,7 @@ Pinhole pinhole_for(const Camera& camera, double margin_px, double oversample, d
     if (std::isnan(rays[i])) continue;
     x = std::max(x, std::abs(static_cast<double>(rays[i]))), y = std::max(y, std::abs(static_cast<double>(rays[i + 1])));
   }
-  const Lens lens = base::as_read_out(camera).lens;
+  const Lens lens = camera::ImageCamera(camera).lens;
   const double f = oversample * std::max(lens.fx_px, lens.fy_px);
   const double half_width = std::ceil(x * f + margin_px + 0.5), half_height = std::ceil(y * f + margin_px + 0.5);
   const double pixels = 4 * half_width * half_height;

@@ -6,8 +6,8 @@
 
 #include "base/calibration.h"
 #include "base/constants.h"
-#include "base/readout.h"
 #include "camera/emitters.h"
+#include "camera/image_camera.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
 #include "simulator/filter.h"
@@ -20,13 +20,13 @@ namespace tofray {
 
 namespace {
 
-std::vector<Vec3> positions(const Camera& camera) {
+std::vector<Vec3> positions(const camera::ImageCamera& camera) {
   std::vector<Vec3> out;
   for (const Illumination& light : camera.illumination) out.push_back(light.position);
   return out;
 }
 
-void set_ambient(const Scene& scene, const Camera& camera, camera::PowerView& power) {
+void set_ambient(const Scene& scene, const camera::ImageCamera& camera, camera::PowerView& power) {
   if (scene.ambient.spectrum == Ambient::Spectrum::none || scene.ambient.amount == 0) return;
   power.ambient = scene.ambient.direction ? camera::AmbientLight::directional : camera::AmbientLight::uniform;
   // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
@@ -55,13 +55,13 @@ const Scene& checked(const Scene& scene, const Camera& camera, const SimulatorOp
   simulator::check_moving_views(scene, camera::with_emitters(camera), options);
   simulator::check_changing_triangles(scene, camera, options);
   const simulator::Border border = with_border ? simulator::border_of(camera) : simulator::Border{};
-  const Camera image = base::as_read_out(simulator::with_border(camera, border));
+  const camera::ImageCamera image(simulator::with_border(camera, border));
   simulator::check_light_image(scene, image, options);
   simulator::check_transient(scene, image);
   return scene;
 }
 
-SimulatorOptions with_last_stage(const SimulatorOptions& wanted, const Camera& camera, const Scene& scene) {
+SimulatorOptions with_last_stage(const SimulatorOptions& wanted, const camera::ImageCamera& camera, const Scene& scene) {
   SimulatorOptions out = wanted;
   out.last_stage = simulator::last_stage_of(camera, wanted, scene.transport);
   return out;
@@ -73,8 +73,8 @@ Simulator::Impl::Impl(const Scene& all, const Camera& given, const SimulatorOpti
     : scene(checked(all, given, wanted, with_border)),
       border(with_border ? simulator::border_of(given) : simulator::Border{}),
       profile(simulator::with_border(given, border)),
-      camera(camera::with_emitters(base::as_read_out(profile))),
-      region_camera(base::as_read_out(simulator::without_border(profile, border))),
+      camera(camera::with_emitters(camera::ImageCamera(profile))),
+      region_camera(simulator::without_border(profile, border)),
       options(with_last_stage(wanted, camera, scene)),
       frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel, wanted.threads),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
+#include "camera/image_camera.h"
 #include "depth/temporal.h"
 #include "pipeline/pass/write_depth.h"
 
 namespace tofray::simulator {
 
-Temporal::Temporal(const Camera& camera, Stage last)
+Temporal::Temporal(const camera::ImageCamera& camera, Stage last)
     : factor_(static_cast<float>(camera.decoding.temporal_sigmas * camera.decoding.temporal_sigmas)) {
   if (camera.decoding.temporal_frames < 2 || last < Stage::depth) return;
   window_ = static_cast<std::uint64_t>(camera.decoding.temporal_frames) - 1;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "camera/image_camera.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"
 
@@ -13,7 +14,7 @@ namespace tofray::simulator {
 class Temporal {
  public:
   /// @param last  the last stage that is computed
-  Temporal(const Camera& camera, Stage last);
+  Temporal(const camera::ImageCamera& camera, Stage last);
 
   /// Whether depth is that of several frames.
   [[nodiscard]] bool on() const { return window_ > 0; }

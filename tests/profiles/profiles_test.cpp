@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/readout.h"
+#include "camera/image_camera.h"
 #include "load/builtin.h"
 #include "support/pixels.h"
 #include "support/sanitizers.h"
@@ -31,7 +31,7 @@ double repeats_after(const Mode& mode) {
 
 /// A single pixel on the axis.
 Camera on_the_axis(Camera camera) {
-  camera = base::as_read_out(camera);
+  camera = camera::ImageCamera(camera);
   camera.sensor.width = camera.sensor.height = 1;
   camera.lens.cx_px = camera.lens.cy_px = 0;
   return camera;
@@ -39,7 +39,7 @@ Camera on_the_axis(Camera camera) {
 
 /// The same view with an eighth of the pixels along each side, none of which is taken for flying: that would choose among the errors.
 Camera coarse(Camera camera) {
-  camera = base::as_read_out(camera);
+  camera = camera::ImageCamera(camera);
   Lens& lens = camera.lens;
   camera.sensor.width /= 8, camera.sensor.height /= 8;
   lens.fx_px /= 8, lens.fy_px /= 8;

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "base/readout.h"
+#include "camera/image_camera.h"
 #include "support/pixels.h"
 #include "support/same_frame.h"
 #include "support/statistics.h"
@@ -403,6 +404,10 @@ TEST(readout, process_makes_the_same_depth_of_recorded_raw_frames) {
   }
 }
 
+// A profile cannot take the place of an image's camera; the other way round it can.
+static_assert(!std::is_convertible_v<const Camera&, camera::ImageCamera>);
+static_assert(std::is_convertible_v<const camera::ImageCamera&, const Camera&>);
+
 // The camera as it is read out is a camera, of which nothing is left to be read out.
 TEST(readout, is_in_the_numbers_of_the_camera_that_comes_of_it) {
   Camera camera = whole_sensor();
@@ -410,7 +415,7 @@ TEST(readout, is_in_the_numbers_of_the_camera_that_comes_of_it) {
   camera.sensor.fill_factor = 0.5;
   camera.pixel.nonlinearity = {{0, 1000}, {0, 900}};
   camera.pixel.suppression_threshold_e = 500, camera.pixel.suppression_budget_e = 2000;
-  const Camera image = base::as_read_out(read_by(camera, {2, 10, 6, 40, 20}));
+  const camera::ImageCamera image(read_by(camera, {2, 10, 6, 40, 20}));
   EXPECT_EQ(image.sensor.width, 20);
   EXPECT_EQ(image.sensor.height, 10);
   EXPECT_DOUBLE_EQ(image.sensor.pixel_pitch_m, 35e-6);
@@ -423,7 +428,7 @@ TEST(readout, is_in_the_numbers_of_the_camera_that_comes_of_it) {
   EXPECT_EQ(image.pixel.suppression_threshold_e, 2000);
   EXPECT_EQ(image.pixel.suppression_budget_e, 8000);
   EXPECT_EQ(image.readout.binning, 1);
-  const Camera again = base::as_read_out(image);
+  const camera::ImageCamera again(static_cast<const Camera&>(image));
   EXPECT_EQ(again.sensor.width, 20);
   EXPECT_EQ(again.lens.cx_px, image.lens.cx_px);
 }

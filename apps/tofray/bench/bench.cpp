@@ -103,7 +103,7 @@ void move_aside(Object& object, double by_m) {
   for (Keyframe& key : object.keyframes) key.position[0] += by_m;
 }
 
-double pixels_of(const Sensor& image) { return static_cast<double>(image.width) * image.height; }
+double pixels_of(const base::ImageExtent& image) { return static_cast<double>(image.width) * image.height; }
 
 }  // namespace
 
@@ -116,7 +116,7 @@ Contender::Contender(const run::Loaded& in, const SimulatorOptions& options, Pla
     : in_(in),
       scene_(in.scene.name),
       options_(options),
-      pixels_(pixels_of(base::as_read_out(in.camera).sensor)),
+      pixels_(pixels_of(base::image_extent(in.camera))),
       simulator_(in.scene, in.camera, options_),
       from_nothing_ms_(milliseconds_since(begun_)),
       frames_(1) {

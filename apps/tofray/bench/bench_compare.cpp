@@ -8,6 +8,7 @@
 #include "backend/cpu/cpu.h"
 #include "base/readout.h"
 #include "bench/bench.h"
+#include "camera/image_camera.h"
 #include "cli/progress.h"
 #include "cli/requests.h"
 
@@ -37,7 +38,7 @@ run::Loaded moving(run::Loaded in) {
 
 /// The same view on 640 x 480 pixels.
 run::Loaded enlarged(run::Loaded in) {
-  in.camera = base::as_read_out(in.camera);
+  in.camera = camera::ImageCamera(in.camera);
   Sensor& sensor = in.camera.sensor;
   Lens& lens = in.camera.lens;
   const double x = 640.0 / sensor.width, y = 480.0 / sensor.height;
@@ -68,7 +69,7 @@ std::vector<Pair> pairs_of(const Options& options, const run::Loaded& in) {
   pairs.push_back({"time: 1 thread / 2 threads", in, in, standard, with(base, best, 2, base.noise)});
   pairs.push_back({"time: noise exact / off", in, in, one(Noise::exact), one(Noise::off)});
   pairs.push_back({"time: one object moves / nothing moves", moving(in), in, standard, standard});
-  const Sensor image = base::as_read_out(in.camera).sensor;
+  const base::ImageExtent image = base::image_extent(in.camera);
   pairs.push_back(
       {fmt::format("pixels per second: 640 x 480 / {} x {}", image.width, image.height), enlarged(in), in, standard, standard, true});
   pairs.push_back({"time: each frame to another place / to the same", in, in, standard, standard, false, Places::others});

@@ -151,7 +151,7 @@ Experiment described(const Options& options, const run::Loaded& in, bool gpu) {
   if (gpu) out.gpu = Simulator(in.scene, in.camera, wanted).ran_on().device;
   out.noise = results::noise_name(wanted.noise);
   out.frames = options.frames.value_or(30);
-  const Sensor image = base::as_read_out(in.camera).sensor;
+  const base::ImageExtent image = base::image_extent(in.camera);
   out.width = image.width, out.height = image.height;
   out.raw_frames = static_cast<int>(in.camera.mode.sequence.size());
   return out;

@@ -65,7 +65,7 @@ files::Json list_cameras(std::string& text) {
   files::Json json = files::Json::array();
   for (const load::Builtin& one : load::builtin_profiles()) {
     const Camera camera = load_camera(one.name);
-    const Sensor image = base::as_read_out(camera).sensor;
+    const base::ImageExtent image = base::image_extent(camera);
     files::Json modes = files::Json::array();
     text += fmt::format("{:<18} {}\n", one.name, one.description);
     for (const std::string& name : camera.mode_names) {

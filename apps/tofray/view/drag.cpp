@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/drag.h"
+#include "camera/image_camera.h"
 
 #include <fmt/core.h>
 
@@ -124,7 +125,7 @@ Mat3 camera_axes(const SceneAt& at) {
 
 /// The ray of a place in the image: x, y, 1 in the camera's frame.
 Vec3 ray_of(const Camera& camera, double u, double v) {
-  const Lens lens = base::as_read_out(camera).lens;
+  const Lens lens = camera::ImageCamera(camera).lens;
   camera::Point2 ray{};
   if (!camera::unproject(lens, camera::growing_radius_squared(lens), {u, v}, ray))
     refuse(fmt::format("the lens sees nothing at pixel {:g},{:g}", u, v), "the cursor has to be where the picture is not empty");
@@ -156,7 +157,7 @@ Moved shifted(const SceneAt& at, const Object& object, const Vec3& in_camera) {
 /// As if a ball about the object's origin followed the cursor: half a turn over the height of the image.
 Moved turned(const SceneAt& at, const Object& object, const Drag& drag) {
   const double right = drag.to_u - drag.from_u, down = drag.to_v - drag.from_v, pixels = std::hypot(right, down);
-  const double per_pixel = base::two_pi / 2 / base::as_read_out(at.camera).sensor.height;
+  const double per_pixel = base::two_pi / 2 / base::image_extent(at.camera).height;
   const Vec3 axis = pixels > 0 ? camera_axes(at) * Vec3{down / pixels, -right / pixels, 0} : Vec3{0, 0, 1};
   const Mat3 turn = mat3(scene::rotation_matrix({axis, per_pixel * pixels}));
   Moved out;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/scene_3d.h"
+#include "camera/image_camera.h"
 
 #include <array>
 #include <cmath>
@@ -43,7 +44,7 @@ Stands camera_at(const SceneAt& at) {
 
 /// The rays of the image's four corners, x and y of x, y, 1; null where the lens has none.
 Json frustum_json(const Camera& camera) {
-  const Camera read = base::as_read_out(camera);
+  const camera::ImageCamera read(camera);
   const double limit = camera::growing_radius_squared(read.lens), right = read.sensor.width - 0.5, bottom = read.sensor.height - 0.5;
   Json out = Json::array();
   for (const camera::Point2& corner : {camera::Point2{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}) {
@@ -132,7 +133,7 @@ void put_objects(Json& json, const SceneAt& at, const Geometry& geometry) {
 }  // namespace
 
 Geometry geometry_of(const SceneAt& at) {
-  const Sensor image = base::as_read_out(at.camera).sensor;
+  const base::ImageExtent image = base::image_extent(at.camera);
   return {static_cast<std::uint32_t>(image.width), static_cast<std::uint32_t>(image.height), pixel_rays(at.camera),
           analysis::scene_triangles(at.scene, at.time_s)};
 }

@@ -81,7 +81,7 @@ void put_camera(Json& json, const State& state) {
   if (state.recorded) {
     json.set("width", state.recorded->width()).set("height", state.recorded->height());
   } else {
-    const Sensor sensor = base::as_read_out(camera).sensor;
+    const base::ImageExtent sensor = base::image_extent(camera);
     json.set("width", sensor.width).set("height", sensor.height);
   }
   json.set("phases", camera.mode.sequence.size()).set("frame_rate_hz", camera.mode.frame_rate_hz);
