@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "camera/read_curve.h"
+#include "effect/nonlinearity.h"
 
 namespace tofray::analysis {
 
@@ -18,7 +18,7 @@ struct TapRead {
 };
 TapRead tap_read(const camera::SensorView& sensor, double charge) {
   if (sensor.read.cell == nullptr) return {charge, 1};
-  const auto read = camera::read_charge(sensor.read, std::min(static_cast<float>(charge), sensor.full_well));
+  const auto read = effect::read_charge(sensor.read, std::min(static_cast<float>(charge), sensor.full_well));
   return {static_cast<double>(read.value), static_cast<double>(read.slope)};
 }
 
@@ -56,9 +56,9 @@ ReadFrame read_frame(const camera::SensorView& sensor, const Collected& light) {
   out.variance[read_noise] = (square_a + square_b) * of(sensor.read_variance);
   out.variance[suppression_noise] =
       of(sensor.suppression_noise) * of(sensor.suppression_noise) * removed * (read_a.slope * read_a.slope + read_b.slope * read_b.slope);
-  const double step = of(sensor.step), column = of(sensor.column_noise), row = of(sensor.row_noise);
+  const double step = of(sensor.step);
   out.variance[adc_rounding] = step * step / 12;
-  out.variance[line_noise] = step * step * (column * column + row * row);
+  out.variance[line_noise] = effect::LineNoise::variance_as_set(sensor);
   return out;
 }
 

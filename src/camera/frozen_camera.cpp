@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/constants.h"
 #include "base/curve.h"
 #include "base/faults.h"
 #include "base/limits.h"
 #include "base/readout.h"
-#include "base/shared.h"
 #include "camera/emitters.h"
 #include "camera/image_camera.h"
 #include "camera/other_camera.h"
-#include "camera/read_curve.h"
 #include "camera/subpixel.h"
 #include "camera/waveform.h"
 #include "num/philox.h"
@@ -28,8 +25,6 @@ namespace setup = num::setup;
 using num::single;
 
 static_assert(flow::max_lights == limit::lights.value);
-
-constexpr double ln_2 = 0.69314718055994530942;
 
 FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed, int subpixel, int threads)
     : sensor_pixels_(camera.sensor),
@@ -53,6 +48,7 @@ FrozenCamera::FrozenCamera(const Camera& camera, bool noise, std::uint64_t seed,
   freeze_phasors();
   freeze_sequence(seed, noise);
   freeze_read_curve();
+  sensor_.effects = effect::any_of(effect::Effects{}, sensor_);
   freeze_patterns();
   const bool quarters =
       std::none_of(raw_frames_.begin(), raw_frames_.end(), [](const RawFrameView& k) { return k.lit != 0 && k.gate_kind == Gate::other; });
@@ -140,8 +136,8 @@ num::RoundKeys keys_of(std::uint64_t seed) {
 void FrozenCamera::freeze_sequence(std::uint64_t seed, bool noise) {
   SensorView& s = sensor_;
   s.raw_frames = static_cast<std::int32_t>(camera_.mode.sequence.size());
-  take_numbers(camera_, s);
-  s.noise = !noise ? Noise::off : read_noise_of(camera_) < least_merged_read_noise ? Noise::apart : Noise::merged;
+  effect::set(camera_, s);
+  s.noise = !noise ? Noise::off : effect::ReadNoise::of(camera_) < effect::least_merged_read_noise ? Noise::apart : Noise::merged;
   s.keys = keys_ = keys_of(seed);
   const std::size_t values = 2 * static_cast<std::size_t>(phasors_.orders);
   const bool another = camera_.interference.share > 0;
@@ -213,7 +209,7 @@ void FrozenCamera::freeze_other_camera(double time_s, std::uint64_t index) {
   const Interference& other = camera_.interference;
   for (std::size_t k = 0; k < raw_frames_.size(); ++k) {
     const double exposure = camera_.mode.sequence[k].integration_time_s;
-    const auto words = num::philox<float>(0, static_cast<std::uint32_t>(k) | (static_cast<std::uint32_t>(Purpose::other_camera) << 16),
+    const auto words = num::philox<float>(0, static_cast<std::uint32_t>(k) | (static_cast<std::uint32_t>(effect::other_camera) << 16),
                                           static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), sensor_.keys);
     const OtherLight light = other_light(other, time_s + start_[k] + 0.5 * exposure, sensor_.noise == Noise::off ? nullptr : &words);
     raw_frames_[k].other_light = single(light.share);
@@ -223,103 +219,17 @@ void FrozenCamera::freeze_other_camera(double time_s, std::uint64_t index) {
   }
 }
 
-/// Twice as much with every `dark_current_doubling_k` kelvin.                                                 [theory: eq. 3.19]
 double FrozenCamera::dark_current() const {
-  const Pixel& pixel = camera_.pixel;
-  if (pixel.dark_current_doubling_k == 0) return pixel.dark_current_e_per_s;
-  const double warmer = camera_.temperature.celsius - camera_.temperature.reference_celsius;
-  return pixel.dark_current_e_per_s * setup::exp(ln_2 * warmer / pixel.dark_current_doubling_k);
+  return effect::DarkCurrent::rate(camera_, [](double x) { return setup::exp(x); });
 }
 
-/// Lines between equidistant charges for what is read of them, as far as a tap can hold them.               [theory: eq. 3.18]
 void FrozenCamera::freeze_read_curve() {
-  SensorView& s = sensor_;
-  s.full_read = s.full_well;
   const Curve& curve = camera_.pixel.nonlinearity;
   if (curve.x.empty()) return;
   const ClampedCurve read(curve, "nonlinearity");
-  const double width = std::min(curve.x.back(), camera_.pixel.full_well_e) / read_cells;
-  for (int i = 0; i < read_cells; ++i) {
-    const double from = read.evaluate(i * width), to = read.evaluate((i + 1) * width);
-    read_.push_back(single(from)), read_.push_back(single(to - from));
-  }
-  s.read = {read_.data(), read_cells, single(1 / width), s.full_well};
-  s.full_read = read_charge(s.read, s.full_well).value;
-}
-
-namespace {
-
-/// What a pattern over the image depends on.
-struct PatternKey {
-  double sigma, mean, least;
-  std::uint32_t stream;
-  std::uint64_t seed;
-  int sensor_width, left, top, binning;
-  int width, height;  ///< of the image
-  bool operator==(const PatternKey&) const = default;
-};
-
-/// Of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are read together.
-///                                                                                                              [theory: eq. 4.26]
-std::vector<float> pattern(const PatternKey& of) {
-  const auto keys = num::round_keys(static_cast<std::uint32_t>(of.seed), static_cast<std::uint32_t>(of.seed >> 32));
-  const auto of_pixel = [&](int x, int y) {
-    const auto words = num::philox<float>(static_cast<std::uint32_t>(y * of.sensor_width + x), of.stream, 0, 0, keys);
-    float z, other;
-    num::normal_pair<float>(words.w[0], words.w[1], z, other);
-    return std::max(of.mean + of.sigma * static_cast<double>(z), of.least);
-  };
-  const int n = of.binning;
-  std::vector<float> map;
-  for (int y = 0; y < of.height; ++y) {
-    for (int x = 0; x < of.width; ++x) {
-      double sum = 0;
-      for (int i = 0; i < n * n; ++i) sum += of_pixel(of.left + x * n + i % n, of.top + y * n + i / n);
-      map.push_back(single(sum / (n * n)));
-    }
-  }
-  return map;
-}
-
-}  // namespace
-
-FrozenCamera::Map FrozenCamera::drawn(double sigma, double mean, double least, std::uint32_t stream) const {
-  if (sigma == 0) return nullptr;
-  const PatternKey key{sigma,
-                       mean,
-                       least,
-                       stream,
-                       one_pixel_.pattern_seed,
-                       sensor_pixels_.width,
-                       readout_.left,
-                       readout_.top,
-                       readout_.binning,
-                       camera_.sensor.width,
-                       camera_.sensor.height};
-  return base::shared<PatternKey, std::vector<float>>().get(
-      key, [&] { return pattern(key); }, [](const std::vector<float>& map) { return map.size() * sizeof(float); });
-}
-
-void FrozenCamera::freeze_patterns() {
-  const Pixel& pixel = one_pixel_;
-  const std::size_t pixels = static_cast<std::size_t>(camera_.sensor.width) * static_cast<std::size_t>(camera_.sensor.height);
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const auto data = [](const Map& map) { return map == nullptr ? nullptr : map->data(); };
-  const int together = readout_.binning * readout_.binning;
-  gain_ = drawn(pixel.prnu, 1, 0, 0x50524e55);
-  offset_ = drawn(pixel.dsnu_dn * together, 0, -infinite, 0x44534e55);  // offsets are charge, which adds
-  delay_ = drawn(pixel.delay_s, 0, -infinite, 0x44454c41);
-  sensor_.gain = data(gain_), sensor_.offset = data(offset_), sensor_.delay = data(delay_);
-  if (pixel.phase_offset_rad == 0 || modulations_.frequency_hz.empty()) return;
-  // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]
-  for (std::size_t j = 0; j < modulations_.frequency_hz.size(); ++j) {
-    const Map phase = drawn(pixel.phase_offset_rad, 0, -infinite, 0x50480000u + static_cast<std::uint32_t>(j));
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const double delay = delay_ == nullptr ? 0.0 : static_cast<double>((*delay_)[i]);
-      late_.push_back(single(delay + static_cast<double>((*phase)[i]) / (2 * pi * modulations_.frequency_hz[j])));
-    }
-  }
-  sensor_.delay = late_.data(), sensor_.delay_stride = static_cast<std::int32_t>(pixels);
+  read_.resize(2 * read_cells);
+  const double ends = std::min(curve.x.back(), camera_.pixel.full_well_e);
+  effect::Nonlinearity::tabulate([&](double charge) { return read.evaluate(charge); }, ends, read_cells, read_.data(), sensor_);
 }
 
 double FrozenCamera::drift_m(double time_s) const {

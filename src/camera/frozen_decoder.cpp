@@ -186,16 +186,13 @@ void FrozenCamera::freeze_decoder(bool noise) {
   for (std::size_t k = 0; k < 3; ++k) d.light[k] = single(mean[k]);
   // No path is that long: without a light source nothing that is measured is a return.
   d.light_square = shares.empty() ? std::numeric_limits<float>::max() : single(square);
-  const double read_noise = read_noise_of(camera_);
-  d.noise_floor = single(2 * read_noise * read_noise + output_variance(camera_)), d.output_floor = single(output_variance(camera_));
+  const double read_noise = effect::ReadNoise::of(camera_), output = effect::output_variance(camera_);
+  d.noise_floor = single(2 * read_noise * read_noise + output), d.output_floor = single(output);
   d.suppression_threshold = sensor_.suppression_threshold, d.suppression_budget = sensor_.suppression_budget;
-  d.suppression_variance = single(2 * camera_.pixel.suppression_noise_factor * camera_.pixel.suppression_noise_factor);
+  d.suppression_variance = single(effect::Suppression::variance_per_electron(camera_));
   d.dark_rate_both = single(2 * dark_current());
-  if (d.grey_frames > 0) {  // suppression takes dark charge off, too
-    const double dark = dark_current() * grey_time / d.grey_frames, above = std::max(dark - camera_.pixel.suppression_threshold_e, 0.0);
-    const bool suppresses = camera_.pixel.suppression_threshold_e > 0;
-    d.grey_dark = single(suppresses ? dark - std::min(above, camera_.pixel.suppression_budget_e) : dark);
-  }
+  // Suppression takes dark charge off, too.
+  if (d.grey_frames > 0) d.grey_dark = single(effect::Suppression::left_of(camera_, dark_current() * grey_time / d.grey_frames));
   // What weighs by 1/σ̂² may have all pixels, however noisy: the noise that it leaves says which are good.
   const bool after_filter = decoding.filter.kind == ImageFilter::Kind::adaptive;
   d.noise_threshold = d.filtered_noise_threshold = std::numeric_limits<float>::max();

@@ -39,7 +39,7 @@ int scattered_radius(const Scatter& scatter) {
 }
 
 bool FrozenScatter::spreads(const Camera& camera) {
-  return camera.lens.scatter.kind != Scatter::Kind::none || camera.pixel.crosstalk_left_right > 0 || camera.pixel.crosstalk_up_down > 0;
+  return camera.lens.scatter.kind != Scatter::Kind::none || effect::Crosstalk::on(camera.pixel);
 }
 
 FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const Pixel& pixel) {
@@ -57,10 +57,10 @@ FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const
 
 /// Of its light a pixel gives a share to the neighbours on either side, of what the lens has brought there.           [theory: eq. 3.27]
 void FrozenScatter::add_sharing(const Pixel& pixel) {
-  const double a = pixel.crosstalk_left_right, b = pixel.crosstalk_up_down;
-  if (!(a > 0 || b > 0)) return;
+  if (!effect::Crosstalk::on(pixel)) return;
   view_.shares = 1;
-  add_separable({a, 1 - 2 * a, a}, {b, 1 - 2 * b, b});
+  const auto [row, column] = effect::Crosstalk::shares(pixel);
+  add_separable({row.before, row.own, row.after}, {column.before, column.own, column.after});
 }
 
 /// K(dx, dy) = row(dx)·column(dy).

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/readout.h"
+#include "effect/list.h"
 
 namespace tofray::camera {
 
@@ -47,20 +48,6 @@ void bin_lens(Lens& lens, int n) {
   for (double& sigma : lens.scatter.sigma_px) sigma = std::max(sigma / n, narrowest);
 }
 
-/// Charges of n × n pixels add before they are read: what is of each pixel adds, what the amplifier does comes once. [eq. 4.25, 4.26]
-void bin_pixel(Pixel& pixel, int n) {
-  constexpr double no_well = 1e30;
-  const double all = static_cast<double>(n) * n;
-  pixel.full_well_e = std::min(pixel.full_well_e * all, no_well);
-  pixel.dark_current_e_per_s *= all, pixel.tap_offset_mismatch_e *= all;
-  pixel.suppression_threshold_e *= all, pixel.suppression_budget_e *= all;
-  for (double& charge : pixel.nonlinearity.x) charge *= all;
-  for (double& read : pixel.nonlinearity.y) read *= all;
-  pixel.crosstalk_left_right /= n, pixel.crosstalk_up_down /= n;  // of the pixels along one edge alone
-  pixel.blooming_share /= n, pixel.blooming_limit_e *= n;         // and so spill what is beyond wells
-  pixel.prnu /= n, pixel.delay_s /= n, pixel.phase_offset_rad /= n, pixel.dsnu_dn *= n;
-}
-
 }  // namespace
 
 ImageCamera::ImageCamera(const Camera& profile) : Camera(profile) {
@@ -73,7 +60,7 @@ ImageCamera::ImageCamera(const Camera& profile) : Camera(profile) {
   sensor.pixel_pitch_m *= r.binning;
   repeat_mask(sensor, r.binning);
   bin_lens(lens, r.binning);
-  bin_pixel(pixel, r.binning);
+  effect::bin(pixel, r.binning);
 }
 
 }  // namespace tofray::camera

@@ -1,14 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <cmath>
 #include <cstdint>
 
+#include "effect/list.h"
 #include "flow/flow.h"
-#include "num/philox.h"
 
 /// The camera, frozen for rendering: plain numbers in single precision that kernels read. Built by FrozenCamera.
 namespace tofray::camera {
+
+// The sensor's part: what its effects read.
+using effect::Gate;
+using effect::Noise;
+using effect::RawFrameView;
+using effect::ReadCurveView;
+using effect::SensorView;
 
 /// The lens, for what moves to where no pixel looks: from directions to pixels.
 struct ProjectionView {
@@ -97,22 +103,6 @@ struct PowerView {
   bool operator==(const PowerView&) const = default;
 };
 
-/// When the gate opens, against the first raw frame of its modulation frequency.
-enum class Gate : std::int32_t { in_phase, quarter_late, opposite, quarter_early, other };
-
-/// Correlation and exposure of one raw frame.
-struct RawFrameView {
-  std::int32_t lit;
-  std::int32_t modulation;  ///< index of the modulation frequency
-  float integration_time;   ///< [s]
-  float dark;               ///< dark electrons of a tap
-  Gate gate_kind;
-  const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
-  /// The same for another camera's light, times its share of the own, or null: there is none.                [theory: eq. 3.24]
-  const float* other;
-  float other_light;  ///< its share of the own
-};
-
 /// One modulation frequency: how the light of a path becomes phasors.
 struct ModulationView {
   float turns_per_metre_high, turns_per_metre_low;  ///< f·n/c in two parts
@@ -128,102 +118,6 @@ struct PhasorView {
   std::int32_t sums_alone;  ///< 1: there is one light, all gates stay at quarter turns and no pixel is late: no order is needed by itself
   bool operator==(const PhasorView&) const = default;
 };
-
-/// What a draw with the sensor's keys is for: part of the random counter, beside pixel, raw frame and frame.
-enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, of_column = 3, of_row = 4, other_camera = 5 };
-
-/// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
-enum class Noise : std::int32_t { off, apart, merged };
-constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                      [theory: eq. 3.11]
-
-/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.        [theory: eq. 3.18]
-struct ReadCurveView {
-  const float* cell;  ///< [cells][2] what is read where a cell begins, and how much more at its end; null: the charge itself
-  std::int32_t cells;
-  float per_cell;  ///< 1/width of a cell [1/e⁻]
-  float most;      ///< full well [e⁻]: no tap holds more
-  bool operator==(const ReadCurveView&) const = default;
-};
-
-/// Sequence, charge, ADC.
-struct SensorView {
-  std::int32_t raw_frames;
-  std::int32_t drifts;        ///< 1: the gates, or what they meet of another camera, are others in each frame
-  const RawFrameView* frame;  ///< [raw_frames]
-  float read_noise, read_variance;
-  float full_well;
-  float suppression_threshold, suppression_budget, suppression_noise;
-  float per_step;                                            ///< 1/s [DN/e⁻]
-  float step, mid_code, max_code, valid_middle, valid_half;  ///< codes, the valid range as middle and half width
-  const float* gain;                                         ///< [height][width] 1 + PRNU, both taps alike, or null
-  const float* offset;                                       ///< [height][width] DSNU [DN], or null
-  const float* delay;                                        ///< [modulations][height][width] [s], or null
-  std::int32_t delay_stride;                                 ///< from one modulation's delays to the next's; 0: all have the same
-  num::RoundKeys keys;                                       ///< of the seed
-  Noise noise;
-  float column_noise, row_noise;  ///< [DN]
-  std::int32_t lines_are_noisy;   ///< 1: columns or rows have noise
-  std::int32_t width, height;     ///< of the image that is read out
-  std::int32_t taps_differ;       ///< 1: by the two numbers below
-  std::int32_t effects;           ///< 0: it is plain: taps alike, no other camera, suppression, curve, noisy lines or wells that overflow
-  float half_gain_mismatch;       ///< g/2
-  float half_offset_mismatch;     ///< [e⁻] of a tap
-  ReadCurveView read;
-  float full_read;                       ///< what is read of a full well
-  std::int32_t blooms;                   ///< 1: full wells spill into their neighbours
-  float blooming_share, blooming_limit;  ///< of what overflows to each neighbour; who gets more [e⁻] is flagged
-  bool operator==(const SensorView&) const = default;
-};
-
-/// Electrons of A−B for each code, in the mode's gain.                                                         [theory: eq. 3.33]
-template <class Camera>
-double step_of(const Camera& camera) {
-  return camera.adc.step_e_per_dn / camera.mode.gain;
-}
-
-/// Reset and read noise of a tap at the camera's temperature, 1 sigma [e⁻].                                   [theory: eq. 3.29]
-template <class Camera>
-double read_noise_of(const Camera& camera) {
-  constexpr double kelvin = 273.15;
-  const auto& pixel = camera.pixel;
-  const double read = pixel.read_noise_e * pixel.read_noise_e;
-  if (pixel.cancels_reset_noise) return std::sqrt(2 * read);
-  if (pixel.reset_noise_e == 0) return pixel.read_noise_e;
-  const double warmer = (camera.temperature.celsius + kelvin) / (camera.temperature.reference_celsius + kelvin);
-  return std::sqrt(read + pixel.reset_noise_e * pixel.reset_noise_e * warmer);
-}
-
-/// The numbers that kernels take from a camera as they are, beside the view that holds them. (Templates: kernel headers know no profile.)
-template <class Camera>
-void take_numbers(const Camera& camera, SensorView& s) {
-  const auto& pixel = camera.pixel;
-  const auto& adc = camera.adc;
-  const auto f = [](double a) { return static_cast<float>(a); };
-  const double read_noise = read_noise_of(camera), step = step_of(camera);
-  s.read_noise = f(read_noise), s.read_variance = f(read_noise * read_noise);
-  s.full_well = f(pixel.full_well_e) < flow::max_charge ? f(pixel.full_well_e) : flow::max_charge;
-  s.suppression_threshold = f(pixel.suppression_threshold_e), s.suppression_budget = f(pixel.suppression_budget_e);
-  s.suppression_noise = f(pixel.suppression_noise_factor);
-  s.per_step = f(1 / step), s.step = f(step), s.mid_code = f(adc.mid_code);
-  s.max_code = f((1 << adc.bits) - 1);
-  s.column_noise = f(pixel.column_noise_e / step), s.row_noise = f(pixel.row_noise_e / step);
-  s.blooming_share = f(pixel.blooming_share), s.blooming_limit = f(pixel.blooming_limit_e), s.blooms = s.blooming_share > 0;
-  s.lines_are_noisy = s.column_noise > 0 || s.row_noise > 0, s.width = camera.sensor.width, s.height = camera.sensor.height;
-  s.half_gain_mismatch = f(0.5 * pixel.tap_gain_mismatch), s.half_offset_mismatch = f(0.5 * pixel.tap_offset_mismatch_e);
-  s.taps_differ = s.half_gain_mismatch != 0 || s.half_offset_mismatch != 0;
-  const double lower = camera.decoding.lower_saturation_dn.value_or(adc.valid_min);
-  const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
-  s.effects = s.taps_differ != 0 || s.suppression_threshold > 0 || !pixel.nonlinearity.x.empty() || s.lines_are_noisy != 0 ||
-              s.blooms != 0 || camera.interference.share > 0;
-  s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
-}
-
-/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].                     [theory: eq. 3.9, 3.15]
-template <class Camera>
-double output_variance(const Camera& camera) {
-  const double step = step_of(camera), column = camera.pixel.column_noise_e, row = camera.pixel.row_noise_e;
-  return step * step / 12 + column * column + row * row;
-}
 
 /// One modulation frequency as the decoder sees it.
 struct DecodeModulation {

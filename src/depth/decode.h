@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "camera/late.h"
-#include "camera/read_curve.h"
 #include "depth/unwrap.h"
+#include "effect/nonlinearity.h"
 #include "tofray/flags.h"
 
 /// Stage 4: from raw frames to range.                                                                   [theory: chapter 4]
@@ -83,8 +83,8 @@ template <bool plain, class F>
 TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
   if (!plain && s.read.cell != nullptr) {
-    const F dark_read = camera::read_charge(s.read, F(s.grey_dark)).value;
-    for (int j = 0; j < s.grey_frames; ++j) sum = sum + camera::charge_of(s.read, difference[s.grey_frame[j]] + dark_read) - F(s.grey_dark);
+    const F dark_read = effect::read_charge(s.read, F(s.grey_dark)).value;
+    for (int j = 0; j < s.grey_frames; ++j) sum = sum + effect::charge_of(s.read, difference[s.grey_frame[j]] + dark_read) - F(s.grey_dark);
     return num::max(sum, F(0.0f));
   }
   for (int j = 0; j < s.grey_frames; ++j) sum = sum + difference[s.grey_frame[j]];
@@ -147,7 +147,7 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
   F collected = num::min(known, both_full), slope = F(1.0f), per_slope = F(1.0f);
   for (int turn = 0; turn < turns; ++turn) {
     const F before = slope;
-    slope = camera::read_charge(s.read, charge_left(s, m, difference, collected, per_slope)).slope;
+    slope = effect::read_charge(s.read, charge_left(s, m, difference, collected, per_slope)).slope;
     slope = num::max(slope, F(1e-12f));                // a spline may fall between two samples that rise
     if (turn > 0 && num::all(slope == before)) break;  // it is of straight lines: all that follows would stay
     per_slope = F(1.0f) / slope;

@@ -13,7 +13,7 @@ template <class F>
 struct Pack {
   flow::Light<F> light;
   bool undisturbed;  ///< `light` is that of what stands still, nothing that moves came between
-  raw::Exposure<F> exposure;
+  effect::Exposure<F> exposure;
   F difference[flow::max_raw_frames];  ///< A−B of each raw frame [e⁻]
 };
 
@@ -27,7 +27,7 @@ TOFRAY_FN void begin(const Setup& s, const Job& job, const Pixels& p, Pack<F>& p
 /// @param first, last  of them, without the last
 template <class F>
 TOFRAY_APART void store_levels(const Setup& s, float* to, const Pixels& p, int first, int last, const flow::Light<F>& light,
-                               const raw::Exposure<F>& exposure) {
+                               const effect::Exposure<F>& exposure) {
   for (int k = first; k < last; ++k) {
     num::store(to + p.index + k * s.lens.width * s.lens.height, raw::level_without_noise(s.sensor, k, light, s.phasors.orders, exposure),
                p.count);
@@ -40,7 +40,7 @@ TOFRAY_APART void store_levels(const Setup& s, float* to, const Pixels& p, int f
 template <bool plain, class F>
 TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now, const flow::Light<F>& light,
                        Pack<F>& pack) {
-  const raw::FrameIndex index{job.index_low, job.index_high};
+  const effect::FrameIndex index{job.index_low, job.index_high};
   for (int k = now.first; k < now.last; ++k) {
     const flow::Taps<F> taps = raw::expose<plain>(s.sensor, k, light, s.phasors.orders, index, pack.exposure);
     fetch_taps<F>(s.lens.width * s.lens.height, job.out, next, k, job.tap_stores);
@@ -72,7 +72,7 @@ TOFRAY_APART void collect_noinline(const Setup& s, const Job& job, const Pixels&
 
 /// Charge above full well, for the pass Blooming, which looks at neighbours.
 template <class F>
-TOFRAY_FN void store_overflow(const Setup& s, const Job& job, const Pixels& p, const raw::Exposure<F>& exposure) {
+TOFRAY_FN void store_overflow(const Setup& s, const Job& job, const Pixels& p, const effect::Exposure<F>& exposure) {
   if (s.sensor.blooms != 0) num::store(overflow_in(s, job) + p.index, exposure.overflow, p.count);
 }
 

@@ -138,7 +138,7 @@ TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power:
 /// Raw frames without noise of the light that has met one surface alone; ambient light is all that there is.
 template <class F>
 TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p,
-                                      const raw::Exposure<F>& exposure) {
+                                      const effect::Exposure<F>& exposure) {
   flow::Light<F> light;
   const bool by_frame = image.times > 1;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
@@ -232,9 +232,9 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
       const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
-      const raw::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
-      level = raw::read_out(sensor, charge, offset).level;
-      difference[k] = raw::held_to_codes(raw::reach_of_codes(sensor, offset), charge.a - charge.b);
+      const effect::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
+      level = effect::read_out(sensor, charge, offset).level;
+      difference[k] = effect::held_to_codes(effect::reach_of_codes(sensor, offset), charge.a - charge.b);
       over = (!charges) | (num::max(charge.a, charge.b) >= F(sensor.full_read));
     }
     if (in.raw != nullptr) {

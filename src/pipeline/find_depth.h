@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "camera/ray.h"
+#include "depth/confidence.h"
 #include "depth/decode.h"
 #include "pipeline/store.h"
 
@@ -47,7 +48,7 @@ TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, p);
   store(job.out.amplitude_e, p, found.amplitude);
   store(job.out.ambient_e, p, found.ambient);
-  store_range(job.out, p, ray, found.range, confidence(s.decoder, found.noise, found.trust), found.flags);
+  store_range(job.out, p, ray, found.range, depth::confidence(s.decoder, found.noise, found.trust), found.flags);
   if (job.filter != Filter::none) num::store(trust_in(s, job) + p.index, found.trust, p.count);
   if (wants_frequencies(job.out)) store_frequencies<F>(s, job.out, p, ray, difference);
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));

@@ -171,7 +171,8 @@ void each_step_over_depth(const Setup& s, const Job& job, Stage entry, const Run
 template <class Run>
 void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run, bool kept = false) {
   const bool by_image = kept || has_light_image(s, entry);
-  if (s.last_stage >= Stage::raw && entry != Stage::depth && raw::draws_lines(s.sensor)) run(Step{pass<LineNoise>, Part::all, 0, {}});
+  if (s.last_stage >= Stage::raw && entry != Stage::depth && effect::LineNoise::draws_lines(s.sensor))
+    run(Step{pass<LineNoise>, Part::all, 0, {}});
   if (!by_image) {
     run(Step{entry == Stage::trace ? pass<FromRays> : pass<FromArrays>, Part::all, 0, {}});
   } else {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "camera/views.h"
+#include "effect/list.h"
 #include "flow/frame_view.h"
 #include "flow/light_image.h"
-#include "raw/line_noise.h"
 #include "scene/view.h"
 
 namespace tofray::pipeline {
@@ -108,7 +108,7 @@ TOFRAY_FN float* trust_in(const Setup& s, const Job& job) {
 }
 /// … and how many numbers in all.
 TOFRAY_FN std::int64_t scratch_floats(const Setup& s, Filter filter) {
-  return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + raw::line_draws(s.sensor);
+  return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + effect::LineNoise::line_draws(s.sensor);
 }
 /// Draws of the sensor's lines, [raw_frames][width + height].
 TOFRAY_FN float* line_normals_in(const Setup& s, const Job& job) {

@@ -83,13 +83,6 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
   store(out.gt_power_w, p, r.power);
 }
 
-/// Confidence 255·p·max(0, 1 − σ̂/0.07 m), rounded.                                                   [theory: eq. 4.10]
-/// @param trust  p, how likely the range is on the right cycle
-template <class F>
-TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise, F trust) {
-  return num::to_int(num::round_even(F(255.0f) * trust * num::max(num::fnma(noise, F(s.per_confidence_noise), F(1.0f)), F(0.0f))));
-}
-
 /// Point, z and confidence of a valid range; NaN and 0 elsewhere.
 template <class F>
 TOFRAY_FN void store_range(const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, num::Int<F> confidence,

@@ -6,16 +6,10 @@
 /// Correlation of the light with the pixel's gate.                                                  [theory: eq. 3.1, 3.2]
 namespace tofray::raw {
 
+using effect::correlated;
+using effect::Means;
 using flow::Light;
 using num::Mask;
-
-/// Re Σ_m Z_m·e^{imτ} at any τ.
-template <int orders, class F>
-TOFRAY_FN F correlated(const float* gate, const F* real, const F* imaginary) {
-  F sum = F(0.0f);
-  for (int h = 0; h < orders; ++h) sum = num::fma(real[h], F(gate[2 * h]), num::fnma(imaginary[h], F(gate[2 * h + 1]), sum));
-  return sum;
-}
 
 /// D/t_int = Re Σ_m Z_m·e^{imτ} of one raw frame; τ from where the modulation's sources begin. At quarter turns e^{imτ} is ±1 or ±i, and the
 /// sums are there already.                                                                                                        [eq. 3.2]
@@ -32,22 +26,6 @@ TOFRAY_FN F difference_rate(const camera::RawFrameView& frame, int orders, const
   const F *real = light.real + j * orders, *imaginary = light.imaginary + j * orders;
   return orders <= 4 ? correlated<4>(frame.gate, real, imaginary) : correlated<flow::max_harmonics>(frame.gate, real, imaginary);
 }
-
-/// What another camera's light adds to the rate of both taps together and, where the gate swings, to that of their difference. [eq. 3.24]
-template <class F>
-TOFRAY_FN void add_other_camera(const camera::RawFrameView& frame, int orders, const Light<F>& light, F& rate, F& difference) {
-  rate = num::fma(light.signal_rate, F(frame.other_light), rate);
-  if (frame.lit == 0) return;
-  const F *real = light.real + frame.modulation * orders, *imaginary = light.imaginary + frame.modulation * orders;
-  difference = difference +
-               (orders <= 4 ? correlated<4>(frame.other, real, imaginary) : correlated<flow::max_harmonics>(frame.other, real, imaginary));
-}
-
-/// Expected electrons of the two taps.
-template <class F>
-struct Means {
-  F a, b;
-};
 
 /// N_A,B = ½(S + B) ± ½D + dark; below zero counts as zero. In an unlit raw frame the gate rests on A, which takes all ambient light. [eq. 3.1]
 template <class F>

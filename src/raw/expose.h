@@ -1,64 +1,38 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "raw/line_noise.h"
+#include "raw/merged_noise.h"
+#include "raw/poisson.h"
 
 /// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
 namespace tofray::raw {
 
-/// What stays the same for a pixel over all raw frames of a frame, and what is computed once for several of them.
-template <class F>
-struct Exposure {
-  num::Int<F> pixel;
-  LineNoise lines;
-  F gain_a, gain_b, offset;
-  CodeReach<F> reach;  ///< with that offset
-  TapWords<F> merged_words, suppression_words;
-  F overflow;                   ///< of the lit raw frames: most charge for which both wells have no room, where that spills
-  F most_charge, widest_level;  ///< of the lit raw frames: most charge of a tap, largest distance of a level from the valid codes' middle
-};
+using camera::Noise;
+using effect::Chain;
+using effect::CodeReach;
+using effect::Effects;
+using effect::Exposure;
+using effect::held_to_codes;
+using effect::reach_of_codes;
+using effect::read_out;
+using flow::Taps;
 
 template <class F>
 TOFRAY_FN F pattern(const float* map, const flow::Pixels& p, float otherwise) {
   return map != nullptr ? num::load<F>(map + p.index, p.count) : F(otherwise);
 }
 
-/// One tap collects 1 + g/2 of what it should, the other 1 − g/2.                                            [theory: eq. 3.16]
-template <class F>
-TOFRAY_FN void unlike_gains(const camera::SensorView& s, Exposure<F>& e) {
-  e.gain_a = num::fma(e.gain_a, F(s.half_gain_mismatch), e.gain_a);
-  e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
-}
-
-/// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
-template <class F>
-TOFRAY_FN Means<F> dark_less_in_gain(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e) {
-  const F half = F(s.half_gain_mismatch), dark = F(frame.dark);
-  return {dark * ((F(1.0f) + half) - e.gain_a), dark * ((F(1.0f) - half) - e.gain_b)};
-}
-template <class F>
-TOFRAY_FN void keep_dark_charge(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
-  const Means<F> less = dark_less_in_gain(s, frame, e);
-  charge.a = num::max(charge.a + less.a, F(0.0f)), charge.b = num::max(charge.b + less.b, F(0.0f));
-}
-
-/// @param line_normals  as line_noise.h draws them, where it does
+/// @param line_normals  as effect::LineNoise draws them, where it does
 template <class F>
 TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, const float* line_normals) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
-  e.lines = lines_through(s, p, line_normals);
+  e.lines = effect::LineNoise::lines_through(s, p, line_normals);
   e.gain_a = e.gain_b = pattern<F>(s.gain, p, 1.0f), e.offset = pattern<F>(s.offset, p, 0.0f);
-  if (s.half_gain_mismatch != 0) unlike_gains(s, e);
-  e.reach = reach_of_codes(s, e.offset);
+  effect::TapMismatch::change_gains(s, e);
+  e.reach = reach_of_codes<F>(s, e.offset);
   e.overflow = e.most_charge = F(0.0f), e.widest_level = F(0.0f);
   return e;
-}
-
-/// Charge of both taps for which their wells have no room.                                                   [theory: eq. 3.32]
-template <class F>
-TOFRAY_FN F overflow_of(const camera::SensorView& s, const Means<F>& charge) {
-  return num::max(charge.a - F(s.full_well), F(0.0f)) + num::max(charge.b - F(s.full_well), F(0.0f));
 }
 
 /// Notes how far a lit raw frame went.
@@ -88,23 +62,22 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
   if (!plain && s.read.cell != nullptr) return otherwise;
   const auto whole = (most < F(s.full_well)) & (num::abs(rate) <= common);
   F difference = rate * F(frame.integration_time) * e.gain_a;
-  if (!plain && s.taps_differ != 0) {
-    const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
-    const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
-    difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
-    if (s.gain != nullptr) {
-      const Means<F> less = dark_less_in_gain(s, frame, e);
-      difference = difference + (less.a - less.b);
-    }
-  }
+  if (!plain && s.taps_differ != 0) difference = effect::TapMismatch::known_difference(s, frame, common, rate, e);
   return num::select(whole, difference, otherwise);
+}
+
+/// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
+template <class F>
+TOFRAY_FN void keep_dark_charge(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
+  const Means<F> less = effect::TapMismatch::dark_less_in_gain(s, frame, e);
+  charge.a = num::max(charge.a + less.a, F(0.0f)), charge.b = num::max(charge.b + less.b, F(0.0f));
 }
 
 /// (Light × (1 + PRNU) + dark charge) × (1 ± g/2), as expected in both taps; and A−B per second of the light alone.
 template <class F>
 struct Expected {
   Means<F> charge;
-  F rate, ambient_rate;
+  effect::Rates<F> rates;
 };
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
@@ -113,9 +86,9 @@ template <bool plain, class F>
 TOFRAY_FN Expected<F> expected(const camera::SensorView& s, const camera::RawFrameView& frame, const Light<F>& light, int orders,
                                const Exposure<F>& e) {
   Expected<F> out;
-  out.rate = frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f), out.ambient_rate = light.ambient_rate;
-  if (!plain && frame.other != nullptr) add_other_camera(frame, orders, light, out.ambient_rate, out.rate);
-  out.charge = tap_means(frame, light.signal_rate, out.ambient_rate, out.rate);
+  out.rates = {light.ambient_rate, frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f)};
+  if constexpr (!plain) effect::change_rates(Effects{}, frame, orders, light, out.rates);
+  out.charge = tap_means(frame, light.signal_rate, out.rates.ambient, out.rates.difference);
   out.charge.a = out.charge.a * e.gain_a, out.charge.b = out.charge.b * e.gain_b;
   if (s.gain != nullptr) keep_dark_charge(s, frame, e, out.charge);
   return out;
@@ -124,15 +97,11 @@ TOFRAY_FN Expected<F> expected(const camera::SensorView& s, const camera::RawFra
 /// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.     [theory: eq. 3.35]
 template <class F>
 TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
-  Means<F> charge = expected<false>(s, s.frame[k], light, orders, e).charge;
-  if (s.half_offset_mismatch != 0) charge = with_unlike_offsets(s, charge);
-  if (s.suppression_threshold > 0) {
-    const F removed = removed_by_suppression(s, charge);
-    charge = {charge.a - removed, charge.b - removed};
-  }
-  if (s.read.cell != nullptr) charge = read_charges(s, charge);
-  const F difference = num::min(charge.a, F(s.full_read)) - num::min(charge.b, F(s.full_read));
-  return num::min(num::max(level_of(s, difference, e.offset), F(0.0f)), F(s.max_code));
+  Chain<F> chain{expected<false>(s, s.frame[k], light, orders, e).charge, e.offset};
+  effect::change_charge<false>(Effects{}, s, s.frame[k], k, {0, 0}, e, chain);
+  effect::change_reading(Effects{}, s, chain.charge);
+  const F difference = num::min(chain.charge.a, F(s.full_read)) - num::min(chain.charge.b, F(s.full_read));
+  return num::min(num::max(effect::level_of(s, difference, chain.offset), F(0.0f)), F(s.max_code));
 }
 
 /// (Light × (1 + PRNU) + dark charge) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
@@ -143,23 +112,19 @@ template <bool plain, class F>
 TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const camera::RawFrameView frame = s.frame[k];
   const Expected<F> mean = expected<plain>(s, frame, light, orders, e);
-  const F rate = mean.rate, ambient_rate = mean.ambient_rate;
-  Means<F> charge = mean.charge;
+  const F rate = mean.rates.difference, ambient_rate = mean.rates.ambient;
+  Chain<F> chain{mean.charge, e.offset};
   if (s.noise == Noise::merged) {
-    charge = expose_merged(s, charge, e.pixel, k, index, e.merged_words);
+    chain.charge = expose_merged(s, chain.charge, e.pixel, k, index, e.merged_words);
   } else if (s.noise == Noise::apart) {
-    charge = expose_apart(s, charge, e.pixel, k, index);
+    chain.charge = expose_apart(s, chain.charge, e.pixel, k, index);
   }
-  F most = num::max(charge.a, charge.b), offset = e.offset;
-  if constexpr (!plain) {
-    offset_and_suppress(s, e.pixel, k, index, e.suppression_words, charge), offset = with_line_noise(s, k, e.lines, e.offset);
-    most = num::max(charge.a, charge.b);
-    if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of(s, charge));
-    if (s.read.cell != nullptr) charge = read_charges(s, charge);
-  }
+  if constexpr (!plain) effect::change_charge<true>(Effects{}, s, frame, k, index, e, chain);
+  const F most = num::max(chain.charge.a, chain.charge.b);
+  if constexpr (!plain) effect::change_reading(Effects{}, s, chain.charge);
   // (Without noise there is none of lines either: the codes' reach is that of the offset alone.)
   const Taps<F> taps = read_out(
-      s, charge, offset, e.reach, [&](F difference) __attribute__((always_inline)) {
+      s, chain.charge, chain.offset, e.reach, [&](F difference) __attribute__((always_inline)) {
         if (frame.lit == 0) return difference;
         return known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, difference);
       });

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "camera/image_camera.h"
+#include "depth/confidence.h"
 #include "depth/temporal.h"
 #include "pipeline/pass/write_depth.h"
 
@@ -52,7 +53,7 @@ void Temporal::settle(std::uint64_t index, const pipeline::Setup& setup, const p
     const float trust = own_share > 0 ? std::min((before + 0.5f) / (255.0f * own_share), 1.0f) : 0.0f;
     const std::int32_t flags = job.out.flags[i] | pipeline::flags_of_filter(setup, job, at, value.range, value.noise);
     pipeline::store_range<float>(job.out, p, camera::ray<float>(setup.lens, p), value.range,
-                                 pipeline::confidence(setup.decoder, value.noise, trust), flags);
+                                 depth::confidence(setup.decoder, value.noise, trust), flags);
     job.out.noise_m[i] = value.noise;
   }
 }

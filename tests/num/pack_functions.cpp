@@ -23,7 +23,7 @@ using F = float;
 #endif
 
 #include "num/pack_functions.h"
-#include "raw/charge.h"
+#include "raw/poisson.h"
 
 namespace {
 

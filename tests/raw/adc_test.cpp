@@ -63,11 +63,11 @@ TEST_P(PhotonTransfer, is_the_line_of_the_closed_form) {
     const auto& frame = bench.sensor().frame[0];
     for (int i = 0; i < samples; ++i) {
       const auto mean = raw::tap_means(frame, 0.0f, static_cast<float>(means[at] * 1e3), 0.0f);
-      raw::TapWords<float> words{};
+      effect::TapWords<float> words{};
       const auto charge = bench.sensor().noise == camera::Noise::merged
                               ? raw::expose_merged<float>(bench.sensor(), mean, i, 0, {0, 0}, words)
                               : raw::expose_apart<float>(bench.sensor(), mean, i, 0, {0, 0});
-      code.add(static_cast<double>(raw::read_out(bench.sensor(), charge, 0.0f).code));
+      code.add(static_cast<double>(effect::read_out(bench.sensor(), charge, 0.0f).code));
     }
     const double expected = gain * gain * (means[at] + 2 * read_of_tap * read_of_tap) + 1.0 / 12;
     if (read_of_tap == std::sqrt(112.5)) {
@@ -99,8 +99,8 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
       const double x = static_cast<double>(j) / offsets;
       Moments code(2048 + x);
       for (const double z : normal) {
-        const raw::Means<float> charge{static_cast<float>(20 * (x + s * z) + 1000), 1000.0f};
-        code.add(static_cast<double>(raw::read_out(sensor, charge, 0.0f).code));
+        const effect::Means<float> charge{static_cast<float>(20 * (x + s * z) + 1000), 1000.0f};
+        code.add(static_cast<double>(effect::read_out(sensor, charge, 0.0f).code));
       }
       worst = std::max(worst, std::abs(code.mean() - 2048 - x));
       if (s >= 0.5) {
@@ -124,7 +124,7 @@ TEST(quantiser, rounds_what_the_noise_has_moved) {
   Moments code(2048);
   for (int i = 0; i < samples; ++i) {
     const auto charge = raw::expose_apart<float>(bench.sensor(), {0.0f, 0.0f}, i, 0, {0, 0});
-    const float got = raw::read_out(bench.sensor(), charge, 0.25f).code;
+    const float got = effect::read_out(bench.sensor(), charge, 0.25f).code;
     ASSERT_EQ(got, std::floor(got));
     code.add(static_cast<double>(got));
     ASSERT_EQ(bench.expose({}, i)[0].code, std::round(bench.expose({}, i)[0].code));
@@ -138,9 +138,9 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
   std::set<int> seen;
   double before = -1;
   for (int difference = -60000; difference <= 60000; ++difference) {
-    const raw::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0),
-                                   static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
-    const auto out = raw::read_out(sensor, charge, 0.0f);
+    const effect::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0),
+                                      static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
+    const auto out = effect::read_out(sensor, charge, 0.0f);
     const double code = static_cast<double>(out.code), exact = difference / 20.0 + 2048;
     ASSERT_EQ(code, std::floor(code));
     ASSERT_GE(code, before);
@@ -154,16 +154,16 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
 
 TEST(quantiser, adds_the_offset_pattern_before_it_rounds) {
   const auto sensor = adc(20);
-  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.4f).code, 2051.0f);
-  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 1000.0f}, 3.6f).code, 2052.0f);
-  EXPECT_EQ(raw::read_out(sensor, {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);  // 0.25 + 0.3
+  EXPECT_EQ(effect::read_out(sensor, {1000.0f, 1000.0f}, 3.4f).code, 2051.0f);
+  EXPECT_EQ(effect::read_out(sensor, {1000.0f, 1000.0f}, 3.6f).code, 2052.0f);
+  EXPECT_EQ(effect::read_out(sensor, {1005.0f, 1000.0f}, 0.3f).code, 2049.0f);  // 0.25 + 0.3
 }
 
 // Without noise depth comes from the unrounded difference; code, wells and flags are as ever.
 TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
   auto sensor = adc(20);
   sensor.noise = camera::Noise::off;
-  const auto out = raw::read_out(sensor, {1234.5f, 1000.25f}, 0.0f);
+  const auto out = effect::read_out(sensor, {1234.5f, 1000.25f}, 0.0f);
   EXPECT_EQ(out.difference, 234.25f);
   EXPECT_EQ(out.code, 2060.0f);
 }
@@ -172,10 +172,10 @@ TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
 TEST(quantiser, holds_the_difference_to_its_codes_where_noise_is_off) {
   auto sensor = adc(20);
   sensor.noise = camera::Noise::off;
-  EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 0.0f).difference, 20 * (4095.0f - 2048));
-  EXPECT_EQ(raw::read_out(sensor, {1000.0f, 90000.0f}, 0.0f).difference, 20 * (0.0f - 2048));
-  EXPECT_EQ(raw::read_out(sensor, {90000.0f, 1000.0f}, 3.0f).difference, 20 * (4095.0f - 2048 - 3));
-  EXPECT_EQ(raw::read_out(sensor, {40000.0f, 1000.0f}, 3.0f).difference, 39000.0f);
+  EXPECT_EQ(effect::read_out(sensor, {90000.0f, 1000.0f}, 0.0f).difference, 20 * (4095.0f - 2048));
+  EXPECT_EQ(effect::read_out(sensor, {1000.0f, 90000.0f}, 0.0f).difference, 20 * (0.0f - 2048));
+  EXPECT_EQ(effect::read_out(sensor, {90000.0f, 1000.0f}, 3.0f).difference, 20 * (4095.0f - 2048 - 3));
+  EXPECT_EQ(effect::read_out(sensor, {40000.0f, 1000.0f}, 3.0f).difference, 39000.0f);
 }
 
 // The flag is set exactly where a tap reaches its well, within one electron, and only in a lit raw frame.
@@ -187,7 +187,7 @@ TEST(saturation, is_flagged_where_a_tap_clips) {
   };
   for (const Case& at : {Case{99999, 80000, false}, Case{100000, 80000, true}, Case{100001, 80000, true}, Case{80000, 99999, false},
                          Case{80000, 100000, true}, Case{80000, 100001, true}, Case{100001, 100001, true}, Case{99999, 99999, false}}) {
-    const auto out = raw::read_out(sensor, {at.a, at.b}, 0.0f);
+    const auto out = effect::read_out(sensor, {at.a, at.b}, 0.0f);
     EXPECT_EQ(test::flags(sensor, lit(), {at.a, at.b}), at.flagged) << at.a << ", " << at.b;
     EXPECT_EQ(out.a, std::min(at.a, 100000.0f));
     EXPECT_EQ(out.b, std::min(at.b, 100000.0f));
@@ -195,14 +195,14 @@ TEST(saturation, is_flagged_where_a_tap_clips) {
     EXPECT_FALSE(test::flags(sensor, lit(false), {at.a, at.b})) << "a grey frame never is";
   }
   // Clipping happens per tap, before the difference: both over the well read as equal.
-  EXPECT_EQ(raw::read_out(sensor, {150000.0f, 120000.0f}, 0.0f).code, 2048.0f);
+  EXPECT_EQ(effect::read_out(sensor, {150000.0f, 120000.0f}, 0.0f).code, 2048.0f);
 }
 
 TEST(saturation, is_flagged_where_a_code_leaves_the_valid_range) {
   const auto sensor = adc(20);
   for (const int code : {399, 400, 401, 2048, 3749, 3750, 3751}) {
     const float difference = static_cast<float>(20 * (code - 2048));
-    const auto out = raw::read_out(sensor, {50000 + difference / 2, 50000 - difference / 2}, 0.0f);
+    const auto out = effect::read_out(sensor, {50000 + difference / 2, 50000 - difference / 2}, 0.0f);
     EXPECT_EQ(out.code, static_cast<float>(code));
     EXPECT_EQ(test::flags(sensor, lit(), {50000 + difference / 2, 50000 - difference / 2}), code < 400 || code > 3750) << code;
     EXPECT_FALSE(test::flags(sensor, lit(false), {50000 + difference / 2, 50000 - difference / 2}));
@@ -217,7 +217,7 @@ TEST(saturation, is_flagged_where_the_adc_held_a_code_that_would_be_valid) {
     sensor.noise = noise;
     for (const double level : {-7.0, -0.6, -0.4, 0.0, 4095.0, 4095.4, 4095.6, 4100.0}) {
       const float difference = static_cast<float>(20 * (level - 2048));
-      const raw::Means<float> charge{50000 + difference / 2, 50000 - difference / 2};
+      const effect::Means<float> charge{50000 + difference / 2, 50000 - difference / 2};
       EXPECT_EQ(test::flags(sensor, lit(), charge), level < -0.5 || level > 4095.5) << level;
       EXPECT_FALSE(test::flags(sensor, lit(false), charge)) << level;
     }

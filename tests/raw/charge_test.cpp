@@ -14,9 +14,10 @@ using namespace tofray::test;
 namespace {
 
 /// By a pixel that has drawn nothing before.
-raw::Means<float> suppressed(const camera::SensorView& s, const raw::Means<float>& charge, int pixel, int k, raw::FrameIndex frame) {
-  raw::TapWords<float> words{};
-  return raw::suppress<float>(s, charge, pixel, k, frame, words);
+effect::Means<float> suppressed(const camera::SensorView& s, const effect::Means<float>& charge, int pixel, int k,
+                                effect::FrameIndex frame) {
+  effect::TapWords<float> words{};
+  return effect::Suppression::suppress<float>(s, charge, pixel, k, frame, words);
 }
 
 camera::SensorView suppressing(float threshold, float budget, float factor, camera::Noise noise) {

@@ -47,7 +47,7 @@ void expect_law(double mean, double read, const Draw& draw) {
   Moments a(mean), b(mean);
   Correlation taps(mean, mean);
   for (int i = 0; i < tries; ++i) {
-    const raw::Means<float> got = draw(i);
+    const effect::Means<float> got = draw(i);
     const double tap_a = static_cast<double>(got.a), tap_b = static_cast<double>(got.b);
     ++seen_a[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), tap_a) - edges.begin())];
     ++seen_b[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), tap_b) - edges.begin())];
@@ -70,8 +70,8 @@ void expect_law(double mean, double read, const Draw& draw) {
 TEST_P(MergedNoise, has_the_law_of_shot_and_read_noise_together) {
   const auto [read, mean] = GetParam();
   const camera::SensorView sensor = sensor_with(read);
-  const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
-  raw::TapWords<float> words{};
+  const effect::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
+  effect::TapWords<float> words{};
   expect_law(mean, read, [&](int i) { return raw::expose_merged<float>(sensor, means, i / 9, i % 9, {0, 0}, words); });
 }
 
@@ -115,7 +115,7 @@ TEST(merged_noise, is_that_of_the_formula) {
 
 // No charge is out of order: it grows with z out to the largest that 24 bits give.
 TEST(merged_noise, grows_with_the_normal_it_comes_from) {
-  const camera::SensorView sensor = sensor_with(camera::least_merged_read_noise);
+  const camera::SensorView sensor = sensor_with(effect::least_merged_read_noise);
   for (const float mean : {0.0f, 0.2f, 5.0f, 16.0f, 40.0f, 1e3f}) {
     for (int i = -580; i < 580; ++i) {
       const float z = static_cast<float>(i) * 0.01f;
@@ -127,7 +127,7 @@ TEST(merged_noise, grows_with_the_normal_it_comes_from) {
 
 // Both sides of the switch: the law is that of the read noise that was asked for.
 TEST(merged_noise, begins_where_theory_says) {
-  const double limit = camera::least_merged_read_noise;
+  const double limit = effect::least_merged_read_noise;
   EXPECT_EQ(limit, 4);
   for (const double read : {std::nextafter(limit, 0.0), limit}) {
     Camera camera = bench_camera({60e6}, 4, 0.7, true);
@@ -138,7 +138,7 @@ TEST(merged_noise, begins_where_theory_says) {
     for (const double mean : {5.0, 30.0}) {
       expect_law(mean, read, [&](int i) {
         const flow::Taps<float> taps = bench.expose({0, 0, 2 * mean}, i)[1];
-        return raw::Means<float>{taps.a, taps.b};
+        return effect::Means<float>{taps.a, taps.b};
       });
     }
   }

@@ -60,11 +60,11 @@ Stream shot(double mean, const Key& key, camera::Noise noise = camera::Noise::ap
             camera::SensorView s{};
             if (noise == camera::Noise::merged) s.read_noise = 50, s.read_variance = 2500;
             s.keys = num::round_keys(static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32));
-            const raw::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
-            const raw::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
-            raw::Means<float> got;
+            const effect::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
+            const effect::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
+            effect::Means<float> got;
             if (noise == camera::Noise::merged) {
-              raw::TapWords<float> words{};
+              effect::TapWords<float> words{};
               for (int k = 0; k <= key.k; ++k) got = raw::expose_merged<float>(s, means, pixel + key.shift, k, frame, words);
             } else {
               got = raw::expose_apart<float>(s, means, pixel + key.shift, key.k, frame);
@@ -200,12 +200,12 @@ TEST(draws, of_suppression_are_independent_of_shot_and_read_noise) {
   taking.suppression_threshold = 1000, taking.suppression_budget = 1e6f, taking.suppression_noise = 1, taking.noise = camera::Noise::merged;
   std::vector<Correlation> pairs(24, Correlation(0, 0));
   for (int i = 0; i < samples; ++i) {
-    raw::TapWords<float> words{};
+    effect::TapWords<float> words{};
     const auto without_read = raw::expose_apart<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto with_read = raw::expose_apart<float>(read, {10000.0f, 10000.0f}, i, 0, {0, 0});
     const auto together = raw::expose_merged<float>(shot, {10000.0f, 10000.0f}, i, 0, {0, 0}, words);
-    raw::TapWords<float> own{};
-    const auto left = raw::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0}, own);
+    effect::TapWords<float> own{};
+    const auto left = effect::Suppression::suppress<float>(taking, {10000.0f, 10000.0f}, i, 0, {0, 0}, own);
     const double drawn[6] = {static_cast<double>(without_read.a) - 10000,       static_cast<double>(without_read.b) - 10000,
                              static_cast<double>(with_read.a - without_read.a), static_cast<double>(with_read.b - without_read.b),
                              static_cast<double>(together.a) - 10000,           static_cast<double>(together.b) - 10000};
@@ -226,18 +226,19 @@ TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
   constexpr std::size_t draws = 2 * raw_frames;
   camera::SensorView s{};
   s.suppression_threshold = 1000, s.suppression_budget = 1e6f, s.suppression_noise = 1, s.noise = camera::Noise::merged;
-  const raw::Means<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
+  const effect::Means<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
   std::vector<Correlation> values(draws * draws, Correlation(1000, 1000)), sizes(draws * draws, Correlation(9000, 9000));
   for (int i = 0; i < samples; ++i) {
-    raw::TapWords<float> words{};
+    effect::TapWords<float> words{};
     double drawn[draws];
     for (int k = 0; k < raw_frames; ++k) {
-      const auto left = raw::suppress<float>(s, charge, i, k, {0, 0}, words);
+      const auto left = effect::Suppression::suppress<float>(s, charge, i, k, {0, 0}, words);
       drawn[2 * k] = static_cast<double>(left.a), drawn[2 * k + 1] = static_cast<double>(left.b);
       if (i >= 100) continue;
-      raw::TapWords<float> fresh{};
-      for (int before = 0; before < k; ++before) (void)raw::suppress<float>(s, before == 0 ? charge : little, i, before, {0, 0}, fresh);
-      const auto alone = raw::suppress<float>(s, charge, i, k, {0, 0}, fresh);
+      effect::TapWords<float> fresh{};
+      for (int before = 0; before < k; ++before)
+        (void)effect::Suppression::suppress<float>(s, before == 0 ? charge : little, i, before, {0, 0}, fresh);
+      const auto alone = effect::Suppression::suppress<float>(s, charge, i, k, {0, 0}, fresh);
       ASSERT_EQ(alone.a, left.a) << "pixel " << i << ", raw frame " << k;
       ASSERT_EQ(alone.b, left.b) << "pixel " << i << ", raw frame " << k;
     }
@@ -270,7 +271,7 @@ TEST(draws, of_merged_noise_that_share_a_block_are_as_good_as_any) {
   std::vector<Correlation> sizes(raw_frames * raw_frames, Correlation(2, 2)), values(4 * raw_frames * raw_frames, Correlation(0, 0)),
       places(raw_frames * raw_frames, Correlation(0.5, 0.5));
   for (int i = 0; i < samples; ++i) {
-    raw::TapWords<float> words{};
+    effect::TapWords<float> words{};
     double z[raw_frames][2], size[raw_frames], place[raw_frames];
     for (std::size_t k = 0; k < raw_frames; ++k) {
       const auto got = raw::expose_merged<float>(sensor, {1e6f, 1e6f}, i, static_cast<int>(k), {0, 0}, words);

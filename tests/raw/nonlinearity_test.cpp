@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "camera/read_curve.h"
+#include "effect/nonlinearity.h"
 #include "support/bench.h"
 #include "tofray/tofray.h"
 
@@ -34,10 +34,10 @@ TEST(nonlinearity, is_the_curve_and_goes_on_beyond_its_ends) {
   const Bench bench(bent());
   const camera::ReadCurveView& curve = bench.sensor().read;
   for (double x = 0; x <= 80000; x += 123.4)
-    EXPECT_NEAR(static_cast<double>(camera::read_charge(curve, static_cast<float>(x)).value), read_of(x), 0.02) << x;
+    EXPECT_NEAR(static_cast<double>(effect::read_charge(curve, static_cast<float>(x)).value), read_of(x), 0.02) << x;
   const double slope_at_end = 1 - (80000 - 0.5 * 80000 / 1024) / bend;
-  EXPECT_NEAR(static_cast<double>(camera::read_charge(curve, 90000.0f).value), read_of(80000) + 1e4 * slope_at_end, 1);
-  EXPECT_NEAR(static_cast<double>(camera::read_charge(curve, -1000.0f).value), -1000, 1);  // read noise
+  EXPECT_NEAR(static_cast<double>(effect::read_charge(curve, 90000.0f).value), read_of(80000) + 1e4 * slope_at_end, 1);
+  EXPECT_NEAR(static_cast<double>(effect::read_charge(curve, -1000.0f).value), -1000, 1);  // read noise
 }
 
 TEST(nonlinearity, acts_on_each_tap_behind_the_full_well) {
@@ -73,19 +73,19 @@ TEST(nonlinearity, is_undone_cell_by_cell_whichever_way_it_bends) {
     const Bench bench(camera);
     const camera::ReadCurveView& curve = bench.sensor().read;
     for (float x = -500; x < 90000; x += 37)
-      EXPECT_NEAR(static_cast<double>(camera::charge_of(curve, camera::read_charge(curve, x).value)), static_cast<double>(x), 0.1) << x;
+      EXPECT_NEAR(static_cast<double>(effect::charge_of(curve, effect::read_charge(curve, x).value)), static_cast<double>(x), 0.1) << x;
     // the cell by a guess is that by halves: the charge lies in it, or beyond an end
     for (int i = 0; i < curve.cells; ++i) {
       const float begin = curve.cell[2 * i], step = curve.cell[2 * i + 1];
       for (const float read : {begin, std::nextafter(begin, -1e9f), begin + 0.5f * step, begin + step}) {
-        const float cell = camera::cell_of(curve, read);
+        const float cell = effect::cell_of(curve, read);
         const int at = 2 * static_cast<int>(cell);
         const float charge = (cell + (read - curve.cell[at]) / curve.cell[at + 1]) * (1.0f / curve.per_cell);
-        EXPECT_EQ(camera::charge_of(curve, read), std::fmax(std::fmin(charge, curve.most), -curve.most)) << i;
+        EXPECT_EQ(effect::charge_of(curve, read), std::fmax(std::fmin(charge, curve.most), -curve.most)) << i;
       }
     }
-    EXPECT_EQ(camera::charge_of(curve, 1e9f), 90000.0f);  // no tap holds more
-    EXPECT_EQ(camera::charge_of(curve, -1e9f), -90000.0f);
+    EXPECT_EQ(effect::charge_of(curve, 1e9f), 90000.0f);  // no tap holds more
+    EXPECT_EQ(effect::charge_of(curve, -1e9f), -90000.0f);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(nonlinearity, ends_where_a_tap_is_full) {
   const Bench far(camera);
   for (int i = 0; i <= 8; ++i) {
     const double x = 1e4 * i;
-    EXPECT_NEAR(static_cast<double>(camera::read_charge(far.sensor().read, static_cast<float>(x)).value), read_of(x), 0.02) << x;
+    EXPECT_NEAR(static_cast<double>(effect::read_charge(far.sensor().read, static_cast<float>(x)).value), read_of(x), 0.02) << x;
   }
 }
 

@@ -75,10 +75,10 @@ class Bench {
                                                       bool* saturated = nullptr) const {
     flow::Light<float> light = light_of({{static_cast<float>(in.signal_e * 1e3), static_cast<float>(2 * in.half_path_m)}});
     light.ambient_rate = static_cast<float>(in.ambient_e * 1e3);
-    const raw::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
-    std::vector<float> line_normals(static_cast<std::size_t>(raw::line_draws(sensor_)));
-    for (int i = 0; i < raw::line_draws(sensor_); ++i) raw::draw_line(sensor_, index, i, line_normals.data());
-    raw::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1}, line_normals.data());
+    const effect::FrameIndex index{static_cast<std::uint32_t>(frame), static_cast<std::uint32_t>(frame >> 32)};
+    std::vector<float> line_normals(static_cast<std::size_t>(effect::LineNoise::line_draws(sensor_)));
+    for (int i = 0; i < effect::LineNoise::line_draws(sensor_); ++i) effect::LineNoise::draw_line(sensor_, index, i, line_normals.data());
+    effect::Exposure<float> exposure = raw::start<float>(sensor_, {pixel, 1}, line_normals.data());
     if (sensor_.delay != nullptr) power::delay_by(phasors(), power::all_of(phasors()), sensor_, {pixel, 1}, light);
     std::vector<flow::Taps<float>> taps;
     for (int k = 0; k < sensor_.raw_frames; ++k) taps.push_back(raw::expose(sensor_, k, light, phasors().orders, index, exposure));
@@ -113,9 +113,9 @@ class Bench {
 };
 
 /// Whether one raw frame of this charge flags its pixel.
-inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const raw::Means<float>& charge) {
-  raw::Exposure<float> exposure{};
-  raw::watch(sensor, frame, num::max(charge.a, charge.b), raw::read_out(sensor, charge, 0.0f), exposure);
+inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const effect::Means<float>& charge) {
+  effect::Exposure<float> exposure{};
+  raw::watch(sensor, frame, num::max(charge.a, charge.b), effect::read_out(sensor, charge, 0.0f), exposure);
   return raw::saturated(sensor, exposure);
 }
 

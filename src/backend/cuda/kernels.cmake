@@ -111,7 +111,7 @@ if(nvcc)
 
   # The same bits as the processor: no product is fused into a sum, division and square root are IEEE's, subnormals are kept.
   set(tofray_nvcc_flags -std=c++20 -O3 --fmad=false --prec-div=true --prec-sqrt=true --ftz=false --expt-relaxed-constexpr -I${CMAKE_SOURCE_DIR}/include)
-  foreach(root base num flow shape brdf scene camera trace power raw depth pipeline backend)
+  foreach(root base num flow shape brdf scene effect camera trace power raw depth pipeline backend)
     list(APPEND tofray_nvcc_flags -I${CMAKE_BINARY_DIR}/roots/${root})
   endforeach()
   set(code "")

@@ -181,7 +181,7 @@ TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
 /// How much there is to do in a pass over images: its pixels; or the sensor's lines in all raw frames.
 template <class P>
 TOFRAY_FN int units_of(const Setup& s) {
-  return P::over == pipeline::Over::raw_frames ? raw::line_draws(s.sensor) : s.lens.width * s.lens.height;
+  return P::over == pipeline::Over::raw_frames ? effect::LineNoise::line_draws(s.sensor) : s.lens.width * s.lens.height;
 }
 
 /// Unit number `index` of a pass over images.

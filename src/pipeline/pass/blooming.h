@@ -16,7 +16,7 @@ TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
   if (x + 1 < width) spilled = spilled + over[at + 1];
   if (y > 0) spilled = spilled + over[at - width];
   if (y + 1 < s.lens.height) spilled = spilled + over[at + width];
-  if (!(spilled * s.sensor.blooming_share > s.sensor.blooming_limit)) return;
+  if (!effect::Blooming::flags(s.sensor, spilled)) return;
   const Pixels p{at, 1};
   const std::int32_t flags = job.out.flags[at] | depth::saturated;
   store_range<float>(job.out, p, camera::ray<float>(s.lens, p), 0.0f, 0, flags);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "camera/ray.h"
+#include "depth/confidence.h"
 #include "pipeline/pass/pass.h"
 #include "pipeline/store.h"
 
@@ -44,7 +45,7 @@ TOFRAY_FN void write_depth(const Setup& s, const Job& job, const Pixels& p, std:
   const F noise = num::load<F>(noise_of + p.index, p.count);
   num::Int<F> sure(0);
   if (item == of_filter) {
-    sure = confidence(s.decoder, noise, num::load<F>(trust_in(s, job) + p.index, p.count));
+    sure = depth::confidence(s.decoder, noise, num::load<F>(trust_in(s, job) + p.index, p.count));
   } else if (job.out.confidence != nullptr) {
     std::int32_t before[num::lanes<F>] = {};
     for (int i = 0; i < p.count; ++i) before[i] = job.out.confidence[p.index + i];

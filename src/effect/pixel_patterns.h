@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The tofray authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace tofray::effect {
+
+/// Gains, offsets, delays and phases that differ from pixel to pixel.                                 [theory: eq. 3.17, 4.26]
+struct PixelPatterns {
+  /// Of n × n pixels that are read together gains, delays and phases are means, and offsets, in codes, a sum.
+  template <class Pixel>
+  static void bin(Pixel& pixel, int n) {
+    pixel.prnu /= n, pixel.delay_s /= n, pixel.phase_offset_rad /= n, pixel.dsnu_dn *= n;
+  }
+};
+
+}  // namespace tofray::effect
