@@ -20,7 +20,7 @@ TOFRAY_APART const trace::Culled& narrow_to(const flow::Ray<F>& ray, const num::
 template <class F>
 TOFRAY_APART void narrow_to(const shape::Vec& toward_sun, const flow::Place<F>& p, const scene::Alongs& alongs,
                             const trace::CulledAlong& from, trace::CulledAlong& to) {
-  trace::narrow<F>(alongs, from, OnScreen<F>(toward_sun).at(p.x, p.y, p.z, p.found), to);
+  trace::narrow<F>(alongs, from, OnScreen(toward_sun).at(p.x, p.y, p.z, p.found), to);
 }
 
 /// What of a tile's forms comes into question for the pack that is looked at now.
@@ -92,7 +92,7 @@ struct Near {
   TOFRAY_FN const trace::CulledAlong& still_along(const Setup&) const { return *along_still.now; }
   TOFRAY_FN const trace::CulledAlong& moving_along(const Setup&, int) const { return *along_moving.now; }
 
-  /// What meshes keep from the lights and the sun, where all pixels of the tile look at them at once.
+  /// What is kept from the lights and the sun by what all pixels of the tile look at at once.
   static constexpr int sun = flow::max_lights;
   bool has_shades;
   int pack;                               ///< that is asked for
@@ -177,8 +177,8 @@ class TileWalk {
       scratch.near.still.look(scratch.near.camera_still, ray, in_use<F>(p));
       scratch.still[q] = see_still(s, scratch.near, ray);
     }
-    see_meshes(scratch.near.camera_still, scratch.still);
-    scratch.near.has_shades = trace::any_mesh(s.scene);
+    see_at_once(scratch.near.camera_still, scratch.still);
+    scratch.near.has_shades = trace::any_mesh(s.scene) || trace::any_clusters(s.scene);
   }
 
   TOFRAY_FN int moments() const { return can_move ? s_.scene.moments : 1; }
@@ -208,7 +208,7 @@ class TileWalk {
       trace::cull<F>(s_.scene.sun_moving(now.index), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks,
                      scratch_.near.sun_moving);
     }
-    if constexpr (can_move) shade_what_is_seen();
+    if constexpr (can_move) shade_what_is_seen(now.index);
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
@@ -231,12 +231,12 @@ class TileWalk {
       scratch_.near.moving.look(scratch_.near.camera_moving, ray, in_use<F>(p));
       scratch_.hits[q] = see_moving(s_, scratch_.near, moment, ray, scratch_.still[q]);
     }
-    see_meshes(scratch_.near.camera_moving, scratch_.hits);
+    see_at_once(scratch_.near.camera_moving, scratch_.hits);
   }
 
-  TOFRAY_FN void see_meshes(const trace::Culled& culled, flow::Hit<F>* hits) {
+  TOFRAY_FN void see_at_once(const trace::Culled& culled, flow::Hit<F>* hits) {
     if constexpr (shape::has_beams<F>) {
-      if (trace::any_mesh(culled)) pipeline::see_meshes<F>(s_, *this, culled, scratch_.rays, hits);
+      if (trace::any_mesh(culled) || trace::any_by_squares(culled)) pipeline::see_at_once<F>(s_, *this, culled, scratch_.rays, hits);
     }
   }
 
@@ -259,13 +259,13 @@ class TileWalk {
     if constexpr (shape::has_beams<F>) {
       if (!scratch_.near.has_shades || still_is_shaded_) return;
       look_from_lights(moment, scratch_.still);
-      shade_by_still(scratch_.still, nullptr, scratch_.shades.still);
+      shade_by_still(moment, scratch_.still, nullptr, scratch_.shades.still);
       scratch_.near.of_still = scratch_.shades.still, scratch_.near.of_moving = scratch_.shades.moving;
       still_is_shaded_ = true;
     }
   }
   /// … and of what is seen at a moment; and what meshes keep from it that move.
-  TOFRAY_FN void shade_what_is_seen() {
+  TOFRAY_FN void shade_what_is_seen(int moment) {
     if constexpr (shape::has_beams<F>) {
       Near<can_move>& near = scratch_.near;
       Shades<can_move>& shades = scratch_.shades;
@@ -274,18 +274,20 @@ class TileWalk {
       if (hits_ != scratch_.still) {
         put_changed(scratch_.still, hits_, scratch_.changed);
         const KnownShades known{shades.still, scratch_.changed};
-        shade_by_still(hits_, &known, shades.current);
+        shade_by_still(moment, hits_, &known, shades.current);
       } else if (points_of_ != hits_) {
         put_points(s_, *this, hits_, scratch_.points);
         points_of_ = hits_;
       }
-      find_shades<F>(s_, near.light_moving, near.sun_moving, scratch_.points, nullptr, scratch_.rays, shades.moving);
+      find_shades<F>(s_, near.light_moving, near.sun_moving, s_.scene.sun_moving(moment), moment, scratch_.points, nullptr, scratch_.rays,
+                     shades.moving);
     }
   }
-  TOFRAY_FN void shade_by_still(const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
+  TOFRAY_FN void shade_by_still(int moment, const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
     put_points(s_, *this, hits, scratch_.points);
     points_of_ = hits;
-    find_shades<F>(s_, scratch_.near.light_still, scratch_.near.sun_still, scratch_.points, known, scratch_.rays, shades);
+    find_shades<F>(s_, scratch_.near.light_still, scratch_.near.sun_still, s_.scene.sun_still(), moment, scratch_.points, known,
+                   scratch_.rays, shades);
   }
 
   const Setup& s_;

@@ -9,9 +9,10 @@ namespace tofray::scene {
 
 constexpr int cluster_size = 32;
 
-/// Rectangles side by side. One that overlaps nothing begins at infinity.
+/// Rectangles side by side, and from which depth on something is in them. One that overlaps nothing begins at infinity.
 struct alignas(64) ManyBounds {
   float x_min[cluster_size], x_max[cluster_size], y_min[cluster_size], y_max[cluster_size];
+  float near[cluster_size];  ///< as shape::begins_at
 };
 
 /// Boxes side by side. One that holds nothing is a point that no ray comes to.
@@ -29,10 +30,15 @@ struct Boxes {
 
 /// One shape's clusters as seen from one point, or along parallel light.
 struct Clusters {
-  const std::int32_t* bodies;     ///< [cluster][32] numbers; −1: none
+  const std::int32_t* bodies;     ///< [cluster][32] numbers, −1: none; then the ranks and the order
   const ManyBounds* of_bodies;    ///< [cluster]
   const ManyBounds* of_clusters;  ///< [cluster/32]
   std::int32_t count;             ///< of clusters; 0: there are so few bodies that each is looked at
+
+  /// [cluster][32] what place each of them has where they are sorted by how near the camera they begin
+  TOFRAY_FN const std::int32_t* ranks() const { return bodies + count * cluster_size; }
+  /// [rank] … and which one, 32·cluster + i, has that place
+  TOFRAY_FN const std::int32_t* order() const { return bodies + 2 * count * cluster_size; }
 };
 
 /// All of them.

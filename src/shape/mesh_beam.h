@@ -20,6 +20,7 @@ struct TileRays {
   alignas(64) Array far;           ///< what lies beyond is not looked for; below 0: no ray
   alignas(64) Array t;             ///< where a triangle is met, if it is
   alignas(64) Array triangle;      ///< bits of a number: which one; −1: none
+  alignas(64) Array square, inverse_length;  ///< of the directions, where others than meshes are looked for (square_search.h)
   alignas(64) Array direction[3];  ///< in the mesh's frame
   alignas(64) Array slope[2];      ///< of it, by the axis of the tile's beam
 

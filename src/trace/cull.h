@@ -7,16 +7,20 @@
 /// what is left stays in its order, on which it depends which of two surfaces at one place is seen.
 ///
 /// The rays of a tile look at clusters of bodies (scene/clusters.h), then at the bodies of those that they can meet. Where many are left,
-/// each pack of the tile looks once more at these alone (narrow).
+/// squares of the tile's rays look once more at these alone (square_search.h), or each of its packs does (narrow).
 namespace tofray::trace {
 
 using scene::cluster_size;
 using scene::ManyBounds;
 
+/// To narrow a list takes a pack about as long as to test as many forms.
+constexpr int few_forms = 12;
+
 /// Indices of the forms that are left, and their rectangles.
 struct Picked {
   std::int32_t count;
   bool everything;      ///< all forms are left; nothing is written down
+  bool by_squares;      ///< the rays of a tile look for these square by square, and its packs do not; the nearest come first
   std::int32_t* index;  ///< [count]
   ManyBounds* bounds;   ///< [count/32]
   TOFRAY_FN int at(int i) const { return everything ? i : index[i]; }
@@ -37,6 +41,8 @@ struct Walk {
 template <class T>
 struct PickedForms {
   using Form = typename T::Form;
+  static constexpr bool in_depth = true;  ///< they have an order
+  static constexpr int few = shape::many_of<T> ? 1 : few_forms;
   Picked picked;
   const Form* forms;
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
@@ -45,6 +51,7 @@ struct PickedForms {
 template <class T>
 struct PickedAlongs {
   using Form = typename T::Along;
+  static constexpr bool in_depth = false;
   Picked picked;
   const Form* forms;
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
@@ -60,7 +67,8 @@ struct CulledOf : shape::ByShape<From> {
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
   TOFRAY_FN Walk<typename From<T>::Form> walk() const {
-    return {this->template of<T>().picked, this->template of<T>().forms, 0};
+    const Picked& picked = this->template of<T>().picked;
+    return {picked, this->template of<T>().forms, picked.by_squares ? picked.count : 0};
   }
 
  private:
@@ -146,14 +154,15 @@ TOFRAY_FN std::size_t marks_bytes(const scene::Bodies& bodies) {
   return static_cast<std::size_t>(Marks::words_of(most_bodies(shape::Shapes{}, bodies))) * sizeof(std::uint64_t);
 }
 
-/// A bit for each of 32 that overlap the rectangle.
-template <class F>
-TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r) {
+/// A bit for each of 32 that overlap the rectangle and, if `deep`, begin before `far`.
+template <class F, bool deep = false>
+TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r, float far = 0) {
   std::uint32_t out = 0;
   for (int i = 0; i < cluster_size; i += num::lanes<F>) {
     const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load<F>(from + i, num::lanes<F>); };
     const F x_min = load(many.x_min), x_max = load(many.x_max), y_min = load(many.y_min), y_max = load(many.y_max);
-    const auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
+    auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
+    if (deep) met = met & (load(many.near) <= F(far));
     out |= num::lanes_of(met) << i;
   }
   return out;
@@ -180,25 +189,62 @@ TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds
   }
 }
 
-/// Marks the bodies of the clusters.
+/// Marks what is in the clusters, by its number.
+/// @param numbers  [cluster][32] the bodies, or their ranks
 template <class F>
-TOFRAY_FN void mark_all(const scene::Clusters& clusters, const scene::Bounds& r, const Marks& marks) {
+TOFRAY_FN void mark_all(const scene::Clusters& clusters, const std::int32_t* numbers, const scene::Bounds& r, const Marks& marks) {
   each_cluster<F>(
       clusters, r, [&](int cluster) __attribute__((always_inline)) {
-        const std::int32_t* bodies = clusters.bodies + cluster * cluster_size;
+        const std::int32_t* its = numbers + cluster * cluster_size;
         for (std::uint32_t left = overlaps<F>(clusters.of_bodies[cluster], r); left != 0; left &= left - 1)
-          marks.mark(bodies[__builtin_ctz(left)]);
+          marks.mark(its[__builtin_ctz(left)]);
       });
 }
 
-/// To narrow a list takes a pack about as long as to test as many forms.
-constexpr int few_forms = 12;
+TOFRAY_FN void put_in_order(Picked& few) {
+  for (int i = 1; i < few.count; ++i) {
+    const std::int32_t one = few.index[i];
+    int at = i;
+    for (; at > 0 && few.index[at - 1] > one; --at) few.index[at] = few.index[at - 1];
+    few.index[at] = one;
+  }
+}
+
+/// Of forms that have clusters those that the rectangle holds; few of them in their order, many with the nearest first.
+/// (Each form itself is not asked: it lies elsewhere in memory, and its squares ask for its rectangle once more.)
+/// @param few  so many go from pack to pack
+template <class F>
+TOFRAY_FN void pick_nearest(const scene::Clusters& clusters, int bodies, const scene::Bounds& r, const Marks& marks, int few, Picked& out) {
+  const std::int32_t* const order = clusters.order();
+  marks.clear(bodies);
+  mark_all<F>(clusters, clusters.ranks(), r, marks);
+  marks.each(
+      bodies, [&](int rank) __attribute__((always_inline)) {
+        const std::int32_t place = order[rank], from = place % cluster_size, to = out.count % cluster_size;
+        const ManyBounds& its = clusters.of_bodies[place / cluster_size];
+        ManyBounds& many = out.bounds[out.count / cluster_size];
+        out.index[out.count++] = clusters.bodies[place];
+        many.x_min[to] = its.x_min[from], many.x_max[to] = its.x_max[from];
+        many.y_min[to] = its.y_min[from], many.y_max[to] = its.y_max[from], many.near[to] = its.near[from];
+      });
+  out.by_squares = out.count > few;
+  if (!out.by_squares) put_in_order(out);
+}
+
+/// … on the screen of parallel light: the points of a tile are at many depths, and the rectangle that holds them there holds much that is
+/// before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
+template <class F>
+TOFRAY_FN void pick_screen(const scene::Clusters& clusters, int bodies, const scene::Bounds& r, Picked& out) {
+  out.by_squares = true;
+  each_cluster<F>(
+      clusters, r, [&](int) __attribute__((always_inline)) { out.count = bodies; });
+}
 
 template <class F, class From, class FormsOf>
 TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, Marks marks, From& picked) {
   picked.forms = forms.at, picked.picked = {};
   if (forms.count == 0) return false;
-  Picked out{r == nullptr ? forms.count : 0, r == nullptr, reinterpret_cast<std::int32_t*>(room), nullptr};
+  Picked out{r == nullptr ? forms.count : 0, r == nullptr, false, reinterpret_cast<std::int32_t*>(room), nullptr};
   if (r != nullptr) {
     const int padded = (forms.count + cluster_size - 1) / cluster_size * cluster_size;
     out.bounds = reinterpret_cast<ManyBounds*>(out.index + padded);
@@ -208,21 +254,25 @@ TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*
     };
     if (forms.clusters.count == 0) {
       for (int i = 0; i < forms.count; ++i) look(i);
-    } else {
+    } else if constexpr (!shape::has_beams<F>) {
       marks.clear(forms.count);
-      mark_all<F>(forms.clusters, *r, marks);
+      mark_all<F>(forms.clusters, forms.clusters.bodies, *r, marks);
       marks.each(forms.count, look);
+    } else if constexpr (From::in_depth) {
+      pick_nearest<F>(forms.clusters, forms.count, *r, marks, From::few, out);
+    } else {
+      pick_screen<F>(forms.clusters, forms.count, *r, out);
     }
   }
   picked.picked = out;
-  return !out.everything && out.count > few_forms;
+  return !out.everything && !out.by_squares && out.count > few_forms;
 }
 
 template <class F, template <class> class From, class... T, class Forms>
 TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
   unsigned char* room = out.room;
   out.many = false;
-  ((out.many = pick<F>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
+  ((out.many = pick<F, From<T>>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
 }
 
 /// For rays d = (x, y, 1) with (x, y) in `rectangle`, or on the screen of parallel light; a null pointer keeps everything.
@@ -237,7 +287,7 @@ TOFRAY_FN void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, un
   const Picked& all = from.template of<T>().picked;
   Picked out = all;
   if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
-    if (!all.everything && all.count > few_forms) {
+    if (!all.everything && !all.by_squares && all.count > few_forms) {
       out.count = 0, out.index = reinterpret_cast<std::int32_t*>(room);
       room += list_bytes(all.count);
       for (int first = 0; first < all.count; first += cluster_size) {
