@@ -85,6 +85,10 @@ void fill(const std::int32_t* bodies, int clusters, const Form* forms, const Beg
     put(of_clusters[c / cluster_size], c % cluster_size, around(of_bodies[c]), nearest_of(of_bodies[c]));
   }
   for (int c = clusters; c % cluster_size != 0; ++c) put(of_clusters[c / cluster_size], c % cluster_size, none, infinite);
+  const int groups = (clusters + cluster_size - 1) / cluster_size;
+  ManyBounds* const of_groups = of_clusters + groups;
+  for (int g = 0; g < groups; ++g) put(of_groups[g / cluster_size], g % cluster_size, around(of_clusters[g]), nearest_of(of_clusters[g]));
+  for (int g = groups; g % cluster_size != 0; ++g) put(of_groups[g / cluster_size], g % cluster_size, none, infinite);
 }
 
 /// The places in clusters, the nearest to the camera first: who looks at those first learns soonest what is hidden behind them.
@@ -156,8 +160,8 @@ void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, Clust
   memory.bodies.resize(in_rows(cluster_size, out.count), -1);
   memory.bodies.resize(in_rows(cluster_size, 3 * out.count));  // ranks and order
   const int rows = moments * (1 + scene.lights), light_rows = scene.has_sun != 0 ? moments : 0;
-  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.groups(), rows));
-  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.groups(), light_rows));
+  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.upper(), rows));
+  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.upper(), light_rows));
   const int moments_around = scene.bounces != 0 ? moments : 0;
   memory.bodies_around.resize(in_rows(out.count, moments_around)), memory.clusters_around.resize(in_rows(out.groups(), moments_around));
   out.bodies = memory.bodies.data();
@@ -170,7 +174,8 @@ template <class T>
 void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& memory) {
   const ClustersOf<T>& of = group.clusters.of<T>();
   if (of.count == 0) return;
-  const auto clusters = static_cast<std::size_t>(of.count), groups = static_cast<std::size_t>(of.groups());
+  const auto clusters = static_cast<std::size_t>(of.count), groups = static_cast<std::size_t>(of.groups()),
+             upper = static_cast<std::size_t>(of.upper());
   const auto bodies = static_cast<std::size_t>(group.bodies.of<T>().count);
   const DerivedOf<T>& derived = group.derived.of<T>();
   const auto shape_at = [&](std::int32_t body, std::size_t moment) {
@@ -183,13 +188,13 @@ void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& me
     fill(
         of.bodies, of.count, derived.forms + row * bodies,
         [&](std::int32_t body) { return begins_at(shape_at(body, row / eyes), eye); }, &memory.bodies_seen[row * clusters],
-        &memory.clusters_seen[row * groups]);
+        &memory.clusters_seen[row * upper]);
   }
   for (std::size_t row = 0; row < memory.bodies_along.size() / clusters; ++row)
     fill(
         of.bodies, of.count, derived.along + row * bodies,
         [&](std::int32_t body) { return begins_along(shape_at(body, row), scene.toward_sun[row]); }, &memory.bodies_along[row * clusters],
-        &memory.clusters_along[row * groups]);
+        &memory.clusters_along[row * upper]);
   for (std::size_t row = 0; row < memory.bodies_around.size() / clusters; ++row)
     fill_boxes(scene, group.bodies.of<T>(), static_cast<int>(row), of.bodies, of.count, &memory.bodies_around[row * clusters],
                &memory.clusters_around[row * groups]);

@@ -32,9 +32,11 @@ struct Boxes {
 struct Clusters {
   const std::int32_t* bodies;     ///< [cluster][32] numbers, −1: none; then the ranks and the order
   const ManyBounds* of_bodies;    ///< [cluster]
-  const ManyBounds* of_clusters;  ///< [cluster/32]
+  const ManyBounds* of_clusters;  ///< [cluster/32], then of these, [cluster/1024]
   std::int32_t count;             ///< of clusters; 0: there are so few bodies that each is looked at
 
+  /// What holds 32 clusters each.
+  TOFRAY_FN const ManyBounds* of_groups() const { return of_clusters + (count + cluster_size - 1) / cluster_size; }
   /// [cluster][32] what place each of them has where they are sorted by how near the camera they begin
   TOFRAY_FN const std::int32_t* ranks() const { return bodies + count * cluster_size; }
   /// [rank] … and which one, 32·cluster + i, has that place
@@ -50,13 +52,15 @@ struct ClustersOf {
   const ManyBoxes *bodies_around, *clusters_around;  ///< [moment][…] where light bounces
   std::int32_t count;
 
-  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * groups(), count}; }
-  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * groups(), count}; }
+  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * upper(), count}; }
+  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * upper(), count}; }
   TOFRAY_FN Boxes around(int moment) const {
     return {bodies, bodies_around + moment * count, clusters_around + moment * groups(), bodies_around == nullptr ? 0 : count};
   }
   /// How often 32 clusters are looked at.
   TOFRAY_FN int groups() const { return (count + cluster_size - 1) / cluster_size; }
+  /// … and 32 of these groups, too.
+  TOFRAY_FN int upper() const { return groups() + (groups() + cluster_size - 1) / cluster_size; }
   bool operator==(const ClustersOf&) const = default;
 };
 

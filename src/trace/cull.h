@@ -183,9 +183,13 @@ TOFRAY_FN void write_down(int i, const Form& form, Picked& out) {
 /// Calls run(cluster) for those that overlap the rectangle.
 template <class F, class Run>
 TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds& r, const Run& run) {
-  for (int first = 0; first < clusters.count; first += cluster_size) {
-    for (std::uint32_t near = overlaps<F>(clusters.of_clusters[first / cluster_size], r); near != 0; near &= near - 1)
-      run(first + __builtin_ctz(near));
+  const int groups = (clusters.count + cluster_size - 1) / cluster_size;
+  for (int above = 0; above < groups; above += cluster_size) {
+    for (std::uint32_t those = overlaps<F>(clusters.of_groups()[above / cluster_size], r); those != 0; those &= those - 1) {
+      const int group = above + __builtin_ctz(those);
+      for (std::uint32_t near = overlaps<F>(clusters.of_clusters[group], r); near != 0; near &= near - 1)
+        run(group * cluster_size + __builtin_ctz(near));
+    }
   }
 }
 
@@ -213,17 +217,20 @@ TOFRAY_FN void put_in_order(Picked& few) {
 /// Of forms that have clusters those that the rectangle holds; few of them in their order, many with the nearest first.
 /// (Each form itself is not asked: it lies elsewhere in memory, and its squares ask for its rectangle once more.)
 /// @param few  so many go from pack to pack
-template <class F>
-TOFRAY_FN void pick_nearest(const scene::Clusters& clusters, int bodies, const scene::Bounds& r, const Marks& marks, int few, Picked& out) {
+template <class F, class FormsOf>
+TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, int few, Picked& out) {
+  const scene::Clusters& clusters = forms.clusters;
   const std::int32_t* const order = clusters.order();
-  marks.clear(bodies);
+  marks.clear(forms.count);
   mark_all<F>(clusters, clusters.ranks(), r, marks);
   marks.each(
-      bodies, [&](int rank) __attribute__((always_inline)) {
+      forms.count, [&](int rank) __attribute__((always_inline)) {
         const std::int32_t place = order[rank], from = place % cluster_size, to = out.count % cluster_size;
         const ManyBounds& its = clusters.of_bodies[place / cluster_size];
         ManyBounds& many = out.bounds[out.count / cluster_size];
-        out.index[out.count++] = clusters.bodies[place];
+        const std::int32_t body = clusters.bodies[place];
+        for (std::size_t at = 0; at < sizeof forms.at[0]; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + at);
+        out.index[out.count++] = body;
         many.x_min[to] = its.x_min[from], many.x_max[to] = its.x_max[from];
         many.y_min[to] = its.y_min[from], many.y_max[to] = its.y_max[from], many.near[to] = its.near[from];
       });
@@ -259,7 +266,7 @@ TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*
       mark_all<F>(forms.clusters, forms.clusters.bodies, *r, marks);
       marks.each(forms.count, look);
     } else if constexpr (From::in_depth) {
-      pick_nearest<F>(forms.clusters, forms.count, *r, marks, From::few, out);
+      pick_nearest<F>(forms, *r, marks, From::few, out);
     } else {
       pick_screen<F>(forms.clusters, forms.count, *r, out);
     }

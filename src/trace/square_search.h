@@ -278,11 +278,14 @@ TOFRAY_FN void shade_by_squares(const scene::Alongs& alongs, const CulledAlong& 
   });
 }
 
-/// The object that a hit belongs to.
+/// The object that a hit belongs to. What it is made of is fetched meanwhile: of many objects it is seldom near.
 template <class F>
 TOFRAY_FN Int<F> object_of(const scene::SceneView& s, const Hit<F>& hit, Mask<F> found) {
-  const Int<F> facet = num::select(found, hit.facet, Int<F>(0));
-  return num::gather(&s.facets->object, facet * Int<F>(sizeof(shape::Facet) / sizeof(std::int32_t)));
+  const Int<F> facet = num::select(found, hit.facet, Int<F>(0)) * Int<F>(sizeof(shape::Facet) / sizeof(std::int32_t));
+  alignas(64) std::int32_t material[num::lanes<F>];
+  num::store(material, num::gather(&s.facets->material, facet), num::lanes<F>);
+  for (const std::int32_t one : material) __builtin_prefetch(s.materials + one);
+  return num::gather(&s.facets->object, facet);
 }
 
 }  // namespace tofray::trace
