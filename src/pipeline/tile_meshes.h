@@ -155,9 +155,8 @@ TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, c
       trace::put_ends(F(0.0f), F(trace::before_surface), wanted, at, rays);
     };
     find_shade<F>(
-        from_light[l], points, before(l), changed, rays, shades[l], put_ray, [&](float* dark) __attribute__((always_inline)) {
-          trace::shade_by_squares<F>(from_light[l], points, rays, dark);
-        });
+        from_light[l], points, before(l), changed, rays, shades[l],
+        put_ray, [&](float* dark) __attribute__((always_inline)) { trace::shade_by_squares<F>(from_light[l], points, rays, dark); });
   }
   constexpr int last = flow::max_lights;
   shades[last].any = false;

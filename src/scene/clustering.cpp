@@ -95,9 +95,8 @@ void fill(const std::int32_t* bodies, int clusters, const Form* forms, const Beg
 void sort_by_depth(const ManyBounds* of_bodies, int clusters, int bodies, std::int32_t* ranks, std::int32_t* order) {
   const auto near = [&](std::int32_t place) { return of_bodies[place / cluster_size].near[place % cluster_size]; };
   std::iota(order, order + clusters * cluster_size, 0);
-  std::sort(order, order + clusters * cluster_size, [&](std::int32_t a, std::int32_t b) {
-    return near(a) < near(b) || (near(a) == near(b) && a < b);
-  });
+  std::sort(order, order + clusters * cluster_size,
+            [&](std::int32_t a, std::int32_t b) { return near(a) < near(b) || (near(a) == near(b) && a < b); });
   for (int i = 0; i < bodies; ++i) ranks[order[i]] = i;
 }
 
@@ -186,9 +185,8 @@ void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& me
   for (std::size_t row = 0; row < memory.bodies_seen.size() / clusters; ++row) {
     const shape::Vec eye = row % eyes == 0 ? shape::Vec{0, 0, 0} : scene.light_positions[row % eyes - 1];
     fill(
-        of.bodies, of.count, derived.forms + row * bodies,
-        [&](std::int32_t body) { return begins_at(shape_at(body, row / eyes), eye); }, &memory.bodies_seen[row * clusters],
-        &memory.clusters_seen[row * upper]);
+        of.bodies, of.count, derived.forms + row * bodies, [&](std::int32_t body) { return begins_at(shape_at(body, row / eyes), eye); },
+        &memory.bodies_seen[row * clusters], &memory.clusters_seen[row * upper]);
   }
   for (std::size_t row = 0; row < memory.bodies_along.size() / clusters; ++row)
     fill(

@@ -116,10 +116,11 @@ TEST(many_objects, that_touch_and_overlap_are_met_as_one_after_the_other) {
     const auto rock = shared(single(stone(random, 2, 0.1, {0, 0, 0})));
     const int side = with_sanitizers ? 6 : 12;
     for (int i = 0; i < side * side * 6; ++i) {
-      const Vec3 at{0.12 * (i % side - 0.5 * side), 0.12 * (i / side % side - 0.5 * side), 1.2 + 0.1 * static_cast<double>(i / (side * side))};
+      const Vec3 at{0.12 * (i % side - 0.5 * side), 0.12 * (i / side % side - 0.5 * side),
+                    1.2 + 0.1 * static_cast<double>(i / (side * side))};
       Object out;
       switch (random.below(4)) {
-        case 0: out = object(Sphere{at, 0.06}); break;                                           // touches its neighbours
+        case 0: out = object(Sphere{at, 0.06}); break;                                               // touches its neighbours
         case 1: out = object(Box{at - Vec3{0.06, 0.06, 0.05}, at + Vec3{0.06, 0.06, 0.05}}); break;  // shares faces with them
         default:
           out.shape = rock, out.position = at;
