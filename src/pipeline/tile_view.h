@@ -31,6 +31,25 @@ TOFRAY_FN Pixels pack_at(const camera::LensView& lens, const Tile& tile, int q) 
   return {(tile.y + dy) * lens.width + tile.x + dx, count};
 }
 
+/// The rectangle of directions that a light sees of a tile, gathered lane by lane; a direction with z <= 0 leaves it `open`.
+template <class F>
+struct Rectangle {
+  F x_min = F(3e38f), x_max = F(-3e38f), y_min = F(3e38f), y_max = F(-3e38f);
+  bool open = false;
+
+  TOFRAY_FN void add(F x, F y, F z, num::Mask<F> use) {
+    const auto ahead = z > F(1e-6f);
+    if (num::any(use & (!ahead))) open = true;
+    const F per_z = F(1.0f) / num::select(ahead, z, F(1.0f));
+    add(x * per_z, y * per_z, use);
+  }
+  TOFRAY_FN void add(F u, F v, num::Mask<F> use) {
+    x_min = num::min(x_min, num::select(use, u, F(3e38f))), x_max = num::max(x_max, num::select(use, u, F(-3e38f)));
+    y_min = num::min(y_min, num::select(use, v, F(3e38f))), y_max = num::max(y_max, num::select(use, v, F(-3e38f)));
+  }
+  TOFRAY_FN flow::Bounds bounds() const { return {num::lowest(x_min), num::highest(x_max), num::lowest(y_min), num::highest(y_max)}; }
+};
+
 /// What one light sees of the tile: the way from the light to a point is (d − w·L)/w for the ray d that hits it, and shadow rays end at a w
 /// that is a little larger than the surface's (trace::a_little_before).
 /// @return false where that is no rectangle ahead of the light
@@ -51,10 +70,30 @@ TOFRAY_FN bool seen_by_light(const Setup& s, const Tile& tile, const flow::Hit<F
   return !seen.open;
 }
 
+/// Points on the screen of parallel light (shape::screen_of): rectangles there are wider than what they hold by a share of its distance.
+template <class F>
+struct OnScreen {
+  float u[3], v[3];
+
+  TOFRAY_FN explicit OnScreen(const shape::Vec& toward_light) {
+    const shape::Screen screen = shape::screen_of(toward_light);
+    shape::copy(screen.u, u), shape::copy(screen.v, v);
+  }
+  TOFRAY_FN trace::OnScreenPack<F> at(F x, F y, F z, num::Mask<F> use) const {
+    const F a = num::fma(x, F(u[0]), num::fma(y, F(u[1]), z * F(u[2]))), b = num::fma(x, F(v[0]), num::fma(y, F(v[1]), z * F(v[2])));
+    const F room = F(num::single(shape::screen_room)) * (num::abs(x) + num::abs(y) + num::abs(z));
+    return {a - room, a + room, b - room, b + room, use};
+  }
+  TOFRAY_FN void add(F x, F y, F z, num::Mask<F> use, Rectangle<F>& to) const {
+    const trace::OnScreenPack<F> pack = at(x, y, z, use);
+    to.add(pack.u_low, pack.v_low, use), to.add(pack.u_high, pack.v_high, use);
+  }
+};
+
 /// Where the shadows of what the tile sees begin, on the sun's screen.
 template <class F>
 TOFRAY_FN flow::Bounds seen_by_sun(const Setup& s, int moment, const Tile& tile, const flow::Hit<F>* hits) {
-  const OnScreen screen(s.scene.toward_sun[moment]);
+  const OnScreen<F> screen(s.scene.toward_sun[moment]);
   Rectangle<F> seen;
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(s.lens, tile, q);

@@ -15,14 +15,13 @@ namespace tofray::shape {
 struct TileRays {
   static constexpr int row = flow::tile_width, count = flow::tile_width * flow::tile_height;
   using Array = float[count];
-  alignas(64) Array given[3];                ///< directions of rays that have one origin, or origins of those that have one direction
-  alignas(64) Array shortest;                ///< t must be above it
-  alignas(64) Array far;                     ///< what lies beyond is not looked for; below 0: no ray
-  alignas(64) Array t;                       ///< where a triangle is met, if it is
-  alignas(64) Array triangle;                ///< bits of a number: which one; −1: none
-  alignas(64) Array square, inverse_length;  ///< of the directions, where others than meshes are looked for (square_search.h)
-  alignas(64) Array direction[3];            ///< in the mesh's frame
-  alignas(64) Array slope[2];                ///< of it, by the axis of the tile's beam
+  alignas(64) Array given[3];      ///< directions of rays that have one origin, or origins of those that have one direction
+  alignas(64) Array shortest;      ///< t must be above it
+  alignas(64) Array far;           ///< what lies beyond is not looked for; below 0: no ray
+  alignas(64) Array t;             ///< where a triangle is met, if it is
+  alignas(64) Array triangle;      ///< bits of a number: which one; −1: none
+  alignas(64) Array direction[3];  ///< in the mesh's frame
+  alignas(64) Array slope[2];      ///< of it, by the axis of the tile's beam
 
   template <class F>
   TOFRAY_FN static void load(const Array* arrays, int count_of_them, int at, F* out) {

@@ -20,7 +20,6 @@ constexpr int few_forms = 12;
 struct Picked {
   std::int32_t count;
   bool everything;      ///< all forms are left; nothing is written down
-  bool by_squares;      ///< the rays of a tile look for these square by square, and its packs do not; the nearest come first
   std::int32_t* index;  ///< [count]
   ManyBounds* bounds;   ///< [count/32]
   TOFRAY_FN int at(int i) const { return everything ? i : index[i]; }
@@ -45,6 +44,7 @@ struct PickedForms {
   static constexpr int few = shape::many_of<T> ? 1 : few_forms;
   Picked picked;
   const Form* forms;
+  std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
 };
 /// … and as parallel light does.
@@ -54,6 +54,7 @@ struct PickedAlongs {
   static constexpr bool in_depth = false;
   Picked picked;
   const Form* forms;
+  std::int32_t in_squares;  ///< not 0: squares of a tile look for what is in the clusters
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
 };
 
@@ -62,13 +63,13 @@ template <template <class> class From>
 struct CulledOf : shape::ByShape<From> {
   unsigned char* room;  ///< for room_of(bodies) bytes, aligned to 64; what is picked is written there
   bool many;            ///< so many that it pays to narrow them
+  bool by_squares;      ///< there are some that squares look for
 
-  TOFRAY_FN bool empty() const { return count() == 0; }
+  TOFRAY_FN bool empty() const { return count() == 0 && !by_squares; }
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
   TOFRAY_FN Walk<typename From<T>::Form> walk() const {
-    const Picked& picked = this->template of<T>().picked;
-    return {picked, this->template of<T>().forms, picked.by_squares ? picked.count : 0};
+    return {this->template of<T>().picked, this->template of<T>().forms, 0};
   }
 
  private:
@@ -214,72 +215,89 @@ TOFRAY_FN void put_in_order(Picked& few) {
   }
 }
 
-/// Of forms that have clusters those that the rectangle holds; few of them in their order, many with the nearest first.
+/// Of forms that have clusters those that the rectangle holds: few of them in their order, many with the nearest first, for squares.
 /// (Each form itself is not asked: it lies elsewhere in memory, and its squares ask for its rectangle once more.)
-/// @param few  so many go from pack to pack
-template <class F, class FormsOf>
-TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, int few, Picked& out) {
+template <class F, class From, class FormsOf>
+TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
   const scene::Clusters& clusters = forms.clusters;
   const std::int32_t* const order = clusters.order();
   marks.clear(forms.count);
   mark_all<F>(clusters, clusters.ranks(), r, marks);
+  Picked out = to.picked;
   marks.each(
       forms.count, [&](int rank) __attribute__((always_inline)) {
-        const std::int32_t place = order[rank], from = place % cluster_size, to = out.count % cluster_size;
+        const std::int32_t place = order[rank], from = place % cluster_size, at = out.count % cluster_size;
         const ManyBounds& its = clusters.of_bodies[place / cluster_size];
         ManyBounds& many = out.bounds[out.count / cluster_size];
         const std::int32_t body = clusters.bodies[place];
-        for (std::size_t at = 0; at < sizeof forms.at[0]; at += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + at);
+        for (std::size_t i = 0; i < sizeof forms.at[0]; i += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + i);
         out.index[out.count++] = body;
-        many.x_min[to] = its.x_min[from], many.x_max[to] = its.x_max[from];
-        many.y_min[to] = its.y_min[from], many.y_max[to] = its.y_max[from], many.near[to] = its.near[from];
+        many.x_min[at] = its.x_min[from], many.x_max[at] = its.x_max[from];
+        many.y_min[at] = its.y_min[from], many.y_max[at] = its.y_max[from], many.near[at] = its.near[from];
       });
-  out.by_squares = out.count > few;
-  if (!out.by_squares) put_in_order(out);
+  if (out.count > From::few) {
+    to.in_squares = out.count, out.count = 0;
+  } else {
+    put_in_order(out);
+  }
+  to.picked = out;
 }
 
 /// … on the screen of parallel light: the points of a tile are at many depths, and the rectangle that holds them there holds much that is
 /// before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
 template <class F>
-TOFRAY_FN void pick_screen(const scene::Clusters& clusters, int bodies, const scene::Bounds& r, Picked& out) {
-  out.by_squares = true;
+TOFRAY_FN bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
+  bool any = false;
   each_cluster<F>(
-      clusters, r, [&](int) __attribute__((always_inline)) { out.count = bodies; });
+      clusters, r, [&](int) __attribute__((always_inline)) { any = true; });
+  return any;
+}
+
+/// Of forms that have clusters. Apart: where there are few, nothing is to be paid for it.
+/// @param to  picked: its lists, empty
+template <class F, class From, class FormsOf>
+TOFRAY_APART void pick_of_many(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
+  if constexpr (!shape::has_beams<F>) {
+    marks.clear(forms.count);
+    mark_all<F>(forms.clusters, forms.clusters.bodies, r, marks);
+    marks.each(
+        forms.count, [&](int i) __attribute__((always_inline)) {
+          if (From::meets(forms.at[i], r)) write_down(i, forms.at[i], to.picked);
+        });
+  } else if constexpr (From::in_depth) {
+    pick_nearest<F>(forms, r, marks, to);
+  } else {
+    to.in_squares = any_on_screen<F>(forms.clusters, r) ? forms.count : 0;
+  }
 }
 
 template <class F, class From, class FormsOf>
-TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, Marks marks, From& picked) {
-  picked.forms = forms.at, picked.picked = {};
+TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, const Marks& marks, From& picked) {
+  picked.forms = forms.at, picked.picked = {}, picked.in_squares = 0;
   if (forms.count == 0) return false;
-  Picked out{r == nullptr ? forms.count : 0, r == nullptr, false, reinterpret_cast<std::int32_t*>(room), nullptr};
+  Picked out{r == nullptr ? forms.count : 0, r == nullptr, reinterpret_cast<std::int32_t*>(room), nullptr};
   if (r != nullptr) {
     const int padded = (forms.count + cluster_size - 1) / cluster_size * cluster_size;
     out.bounds = reinterpret_cast<ManyBounds*>(out.index + padded);
     room += list_bytes(forms.count);
-    const auto look = [&](int i) __attribute__((always_inline)) {
-      if (From::meets(forms.at[i], *r)) write_down(i, forms.at[i], out);
-    };
-    if (forms.clusters.count == 0) {
-      for (int i = 0; i < forms.count; ++i) look(i);
-    } else if constexpr (!shape::has_beams<F>) {
-      marks.clear(forms.count);
-      mark_all<F>(forms.clusters, forms.clusters.bodies, *r, marks);
-      marks.each(forms.count, look);
-    } else if constexpr (From::in_depth) {
-      pick_nearest<F>(forms, *r, marks, From::few, out);
-    } else {
-      pick_screen<F>(forms.clusters, forms.count, *r, out);
+    if (forms.clusters.count > 0) {
+      picked.picked = out;
+      pick_of_many<F>(forms, *r, marks, picked);
+      return picked.picked.count > few_forms;
     }
+    for (int i = 0; i < forms.count; ++i)
+      if (From::meets(forms.at[i], *r)) write_down(i, forms.at[i], out);
   }
   picked.picked = out;
-  return !out.everything && !out.by_squares && out.count > few_forms;
+  return !out.everything && out.count > few_forms;
 }
 
 template <class F, template <class> class From, class... T, class Forms>
 TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
   unsigned char* room = out.room;
   out.many = false;
-  ((out.many = pick<F, From<T>>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
+  ((out.many = pick<F>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
+  out.by_squares = (out.template of<T>().in_squares | ...) != 0;
 }
 
 /// For rays d = (x, y, 1) with (x, y) in `rectangle`, or on the screen of parallel light; a null pointer keeps everything.
@@ -294,7 +312,7 @@ TOFRAY_FN void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, un
   const Picked& all = from.template of<T>().picked;
   Picked out = all;
   if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
-    if (!all.everything && !all.by_squares && all.count > few_forms) {
+    if (!all.everything && all.count > few_forms) {
       out.count = 0, out.index = reinterpret_cast<std::int32_t*>(room);
       room += list_bytes(all.count);
       for (int first = 0; first < all.count; first += cluster_size) {

@@ -14,11 +14,6 @@ template <class F>
 TOFRAY_FN void put(F x, F y, F z, int at, TileRays& rays) {
   shape::store_all(rays.given[0] + at, x), shape::store_all(rays.given[1] + at, y), shape::store_all(rays.given[2] + at, z);
 }
-template <class F>
-TOFRAY_FN void put(const Ray<F>& ray, int at, TileRays& rays) {
-  put(ray.x, ray.y, ray.z, at, rays);
-  shape::store_all(rays.square + at, ray.square), shape::store_all(rays.inverse_length + at, ray.inverse_length);
-}
 /// … and within which t they look for a triangle, if at all.
 template <class F>
 TOFRAY_FN void put_ends(F shortest, F far, Mask<F> wanted, int at, TileRays& rays) {
@@ -32,7 +27,7 @@ TOFRAY_FN Int<F> triangle_at(const TileRays& rays, int at) {
 
 template <template <class> class From, class... T>
 TOFRAY_FN bool any_mesh(shape::List<T...>, const CulledOf<From>& culled) {
-  return ((shape::many_of<T> && culled.template of<T>().picked.count > 0 && !culled.template of<T>().picked.by_squares) || ...);
+  return ((shape::many_of<T> && culled.template of<T>().picked.count > 0) || ...);
 }
 template <class... T>
 TOFRAY_FN bool any_mesh(shape::List<T...>, const scene::SceneView& s) {

@@ -9,6 +9,17 @@
 /// What is seen does not depend on the order: of two forms at one place that of the lower facet is, which is the first one.
 namespace tofray::trace {
 
+/// What a tile knows of its rays beside TileRays, where squares of them look for forms.
+struct TileSquares {
+  alignas(64) TileRays::Array square, inverse_length;  ///< of the directions
+  alignas(64) TileRays::Array object;                  ///< bits of a number: to which object belongs what they end at
+};
+template <class F>
+TOFRAY_FN void put(const Ray<F>& ray, int at, TileRays& rays, TileSquares& squares) {
+  put(ray.x, ray.y, ray.z, at, rays);
+  shape::store_all(squares.square + at, ray.square), shape::store_all(squares.inverse_length + at, ray.inverse_length);
+}
+
 /// What the rays of a tile have hit.
 struct TileHits {
   alignas(64) TileRays::Array w, facet, triangle;  ///< the last two: bits of numbers
@@ -31,11 +42,11 @@ struct SquareRays {
   S u, v;                 ///< x/z, y/z
   scene::Bounds r;        ///< of them
 
-  TOFRAY_FN SquareRays(const TileRays& rays, int at) {
+  TOFRAY_FN SquareRays(const TileRays& rays, const TileSquares& squares, int at) {
     S d[3];
     TileRays::load_square(rays.given, 3, at, d);
-    ray = {d[0], d[1], d[2], num::load_square<S>(rays.square + at, TileRays::row),
-           num::load_square<S>(rays.inverse_length + at, TileRays::row)};
+    ray = {d[0], d[1], d[2], num::load_square<S>(squares.square + at, TileRays::row),
+           num::load_square<S>(squares.inverse_length + at, TileRays::row)};
     wanted = num::load_square<S>(rays.far + at, TileRays::row) > S(0.0f);
     ahead = d[2] > S(1e-6f);
     const S per_z = S(1.0f) / num::select(ahead, d[2], S(1.0f));
@@ -52,14 +63,15 @@ struct SquareRays {
   }
 };
 
-/// Calls run(form, near) for the forms that a square can meet, until `far`, which run may lower, is before all of them.
+/// Calls run(form, near) for the forms that a square can meet and that begin before `far`, which run may lower.
 template <class S, class Of, class Run>
 TOFRAY_FN void each_in_square(const Of& of, const scene::Bounds& r, const float& far, const Run& run) {
   const Picked& picked = of.picked;
-  for (int first = 0; first < picked.count; first += cluster_size) {
+  const int count = of.in_squares;
+  for (int first = 0; first < count; first += cluster_size) {
     const ManyBounds& many = picked.bounds[first / cluster_size];
     std::uint32_t left = overlaps<S, true>(many, r, far);
-    if (picked.count - first < cluster_size) left &= shape::first_of(picked.count - first);
+    if (count - first < cluster_size) left &= shape::first_of(count - first);
     for (; left != 0; left &= left - 1) {
       const int i = __builtin_ctz(left);
       if (many.near[i] <= far) run(of.forms[picked.index[first + i]], many.near[i]);
@@ -67,15 +79,15 @@ TOFRAY_FN void each_in_square(const Of& of, const scene::Bounds& r, const float&
   }
 }
 
-/// The nearer of a square's hits and a form. @return the rays that it is nearer for
+/// The nearer of a square's hits and a form.
 template <class T, class S>
-TOFRAY_FN Mask<S> take_form(const typename T::Form& form, float near, const SquareRays<S>& q, Hit<S>& hit) {
+TOFRAY_FN void take_form(const typename T::Form& form, float near, const SquareRays<S>& q, Hit<S>& hit) {
   S w;
   Int<S> facet, triangle(0);
   Mask<S> met = q.wanted;
   if constexpr (shape::many_of<T>) {
     met = q.within(form.bounds) & (hit.w * S(near) <= S(1.0f + 0x1p-18f));
-    if (!num::any(met)) return met;
+    if (!num::any(met)) return;
     shape::MeshHit<S> found{shape::far_of(hit), Int<S>(0x7fffffff), Int<S>(-1)};
     shape::search_from_root<false>(form, shape::in_mesh(form, {q.ray.x, q.ray.y, q.ray.z}), S(shape::nearest_mesh), met, found);
     met = met & (found.triangle > Int<S>(-1));
@@ -88,32 +100,41 @@ TOFRAY_FN Mask<S> take_form(const typename T::Form& form, float near, const Squa
   hit.w = num::select(nearer, w, hit.w);
   hit.facet = num::select(nearer, facet, hit.facet);
   if constexpr (shape::many_of<T>) hit.triangle = num::select(nearer, triangle, hit.triangle);
-  return nearer;
 }
 
-/// Nothing that begins deeper is nearer than what all rays have hit, however w is rounded.
+/// How deep a square's rays look: nothing that begins deeper is nearer than what all of them have hit, however w is rounded.
 template <class S>
-TOFRAY_FN float far_of_square(const SquareRays<S>& q, const Hit<S>& hit) {
-  const float least = num::lowest(num::select(q.wanted, hit.w, S(3e38f)));
-  return least > 0 ? (1.0f + 0x1p-18f) / least : 3e38f;
-}
+struct Reach {
+  float least, far;  ///< least: w of the deepest hit
+
+  TOFRAY_FN void look(const SquareRays<S>& q, const Hit<S>& hit) {
+    least = num::lowest(num::select(q.wanted, hit.w, S(3e38f)));
+    far = least > 0 ? (1.0f + 0x1p-18f) / least : 3e38f;
+  }
+  /// It is less deep once all rays that looked deepest have hit something nearer, which is seldom.
+  TOFRAY_FN void look_again(const SquareRays<S>& q, const Hit<S>& hit) {
+    if (!num::any(q.wanted & (hit.w <= S(least)))) look(q, hit);
+  }
+};
 
 template <class... T, class S>
 TOFRAY_FN void nearest_in_square(shape::List<T...>, const Culled& culled, const SquareRays<S>& q, Hit<S>& hit) {
-  float far = far_of_square(q, hit);
+  Reach<S> reach;
+  reach.look(q, hit);
   const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
     const auto& of = culled.template of<One>();
-    if (!of.picked.by_squares) return;
+    if (of.in_squares == 0) return;
     each_in_square<S>(
-        of, q.r, far, [&](const auto& form, float near) __attribute__((always_inline)) {
-          if (num::any(take_form<One>(form, near, q, hit))) far = far_of_square(q, hit);
+        of, q.r, reach.far, [&](const auto& form, float near) __attribute__((always_inline)) {
+          take_form<One>(form, near, q, hit);
+          reach.look_again(q, hit);
         });
   };
   (one(shape::List<T>{}), ...);
 }
 template <class S>
-TOFRAY_APART void nearest_in_square(const Culled& culled, const TileRays& rays, int at, TileHits& hits) {
-  const SquareRays<S> q(rays, at);
+TOFRAY_APART void nearest_in_square(const Culled& culled, const TileRays& rays, const TileSquares& squares, int at, TileHits& hits) {
+  const SquareRays<S> q(rays, squares, at);
   if (!num::any(q.wanted)) return;
   Hit<S> hit{num::load_square<S>(hits.w + at, TileRays::row), load_numbers<S>(hits.facet + at), load_numbers<S>(hits.triangle + at)};
   nearest_in_square(shape::Shapes{}, culled, q, hit);
@@ -121,14 +142,6 @@ TOFRAY_APART void nearest_in_square(const Culled& culled, const TileRays& rays, 
   store_numbers<S>(hits.facet + at, hit.facet), store_numbers<S>(hits.triangle + at, hit.triangle);
 }
 
-template <template <class> class From, class... T>
-TOFRAY_FN bool any_by_squares(shape::List<T...>, const CulledOf<From>& culled) {
-  return (culled.template of<T>().picked.by_squares || ...);
-}
-template <template <class> class From>
-TOFRAY_FN bool any_by_squares(const CulledOf<From>& culled) {
-  return any_by_squares(shape::Shapes{}, culled);
-}
 template <class... T>
 TOFRAY_FN bool any_clusters(shape::List<T...>, const scene::SceneView& s) {
   return ((s.still.clusters.of<T>().count + s.moving.clusters.of<T>().count > 0) || ...);
@@ -138,7 +151,7 @@ TOFRAY_FN bool any_clusters(const scene::SceneView& s) { return any_clusters(sha
 
 /// The nearer of the packs' hits and the forms that are looked for in squares. [as nearest_meshes]
 template <class F, class Wanted>
-TOFRAY_FN void nearest_by_squares(const Culled& culled, TileRays& rays, const Wanted& wanted, Hit<F>* hits) {
+TOFRAY_FN void nearest_by_squares(const Culled& culled, TileRays& rays, const TileSquares& squares, const Wanted& wanted, Hit<F>* hits) {
   TileHits all;
   for (int at = 0, q = 0; at < TileRays::count; at += num::lanes<F>, ++q) {
     const auto numbers = [&](Int<F> a) __attribute__((always_inline)) { return num::from_bits(num::to_uint(a)); };
@@ -146,7 +159,7 @@ TOFRAY_FN void nearest_by_squares(const Culled& culled, TileRays& rays, const Wa
     shape::store_all(all.w + at, hits[q].w);
     shape::store_all(all.facet + at, numbers(hits[q].facet)), shape::store_all(all.triangle + at, numbers(hits[q].triangle));
   }
-  shape::each_square([&](int at) __attribute__((always_inline)) { nearest_in_square<num::Square<F>>(culled, rays, at, all); });
+  shape::each_square([&](int at) __attribute__((always_inline)) { nearest_in_square<num::Square<F>>(culled, rays, squares, at, all); });
   for (int at = 0, q = 0; at < TileRays::count; at += num::lanes<F>, ++q) {
     const auto numbers = [&](const float* from) __attribute__((always_inline)) {
       return num::to_signed(num::bits(shape::load_all<F>(from + at)));
@@ -162,7 +175,7 @@ TOFRAY_FN void shade_square(shape::List<T...>, const Culled& forms, const Square
   float far = open ? 3e38f : num::highest(num::select(q.wanted, q.ray.z, S(-3e38f)));
   const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
     const auto& of = forms.template of<One>();
-    if (!of.picked.by_squares) return;
+    if (of.in_squares == 0) return;
     each_in_square<S>(
         of, q.r, far, [&](const auto& form, float near) __attribute__((always_inline)) {
           if constexpr (shape::many_of<One>) {
@@ -180,11 +193,11 @@ TOFRAY_FN void shade_square(shape::List<T...>, const Culled& forms, const Square
   (one(shape::List<T>{}), ...);
 }
 template <class S>
-TOFRAY_APART void shade_square(const Culled& forms, const float* objects, TileRays& rays, int at, float* dark) {
-  const SquareRays<S> q(rays, at);
+TOFRAY_APART void shade_square(const Culled& forms, TileRays& rays, const TileSquares& squares, int at, float* dark) {
+  const SquareRays<S> q(rays, squares, at);
   if (!num::any(q.wanted)) return;
   Place<S> p{};
-  p.object = load_numbers<S>(objects + at), p.found = q.wanted;
+  p.object = load_numbers<S>(squares.object + at), p.found = q.wanted;
   Mask<S> out = S(1.0f) < S(0.0f);
   shade_square(shape::Shapes{}, forms, q, p, out);
   out = out & q.wanted;
@@ -193,10 +206,9 @@ TOFRAY_APART void shade_square(const Culled& forms, const float* objects, TileRa
 }
 
 /// Which surfaces the forms that are looked for in squares keep from a light. [as shade_by_meshes]
-/// @param points  of the surfaces: to which objects they belong
-template <class F, class Points>
-TOFRAY_FN void shade_by_squares(const Culled& forms, const Points& points, TileRays& rays, float* dark) {
-  shape::each_square([&](int at) __attribute__((always_inline)) { shade_square<num::Square<F>>(forms, points.object, rays, at, dark); });
+template <class F>
+TOFRAY_FN void shade_by_squares(const Culled& forms, TileRays& rays, const TileSquares& squares, float* dark) {
+  shape::each_square([&](int at) __attribute__((always_inline)) { shade_square<num::Square<F>>(forms, rays, squares, at, dark); });
 }
 
 /// Sixteen points, and where they are on the screen of the sun.
@@ -240,7 +252,7 @@ TOFRAY_FN void shade_by_sun(shape::List<T...>, const scene::Alongs& alongs, cons
     const auto these = left & (q.p.object == Int<S>(num::first_of(left, q.p.object)));
     const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
       if constexpr (shape::bounded<One>) {
-        if (picked.template of<One>().picked.by_squares) shade_points<One, S>(alongs.of<One>(), q, sun, these, dark);
+        if (picked.template of<One>().in_squares != 0) shade_points<One, S>(alongs.of<One>(), q, sun, these, dark);
       }
     };
     (one(shape::List<T>{}), ...);
@@ -251,13 +263,13 @@ TOFRAY_FN void shade_by_sun(shape::List<T...>, const scene::Alongs& alongs, cons
 /// @param screen  at(x, y, z, lanes): where points are on it
 template <class S, class Points, class Screen>
 TOFRAY_APART void shade_square_by_sun(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
-                                      const Points& points, TileRays& rays, int at, float* dark) {
+                                      const Points& points, TileRays& rays, const TileSquares& squares, int at, float* dark) {
   const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load_square<S>(from + at, TileRays::row); };
   SquareOnScreen<S> q{};
   q.p.found = load(rays.far) > S(0.0f);
   if (!num::any(q.p.found)) return;
   q.p.x = load(points.x), q.p.y = load(points.y), q.p.z = load(points.z), q.p.range = load(points.range);
-  q.p.object = load_numbers<S>(points.object + at);
+  q.p.object = load_numbers<S>(squares.object + at);
   q.margin = load(rays.shortest);
   q.at = screen.at(q.p.x, q.p.y, q.p.z, q.p.found);
   const S along = num::fma(q.p.x, S(sun[0]), num::fma(q.p.y, S(sun[1]), q.p.z * S(sun[2])));
@@ -272,9 +284,9 @@ TOFRAY_APART void shade_square_by_sun(const scene::Alongs& alongs, const CulledA
 /// … keep from the sun.
 template <class F, class Points, class Screen>
 TOFRAY_FN void shade_by_squares(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
-                                const Points& points, TileRays& rays, float* dark) {
+                                const Points& points, TileRays& rays, const TileSquares& squares, float* dark) {
   shape::each_square([&](int at) __attribute__((always_inline)) {
-    shade_square_by_sun<num::Square<F>>(alongs, picked, screen, sun, points, rays, at, dark);
+    shade_square_by_sun<num::Square<F>>(alongs, picked, screen, sun, points, rays, squares, at, dark);
   });
 }
 

@@ -136,6 +136,25 @@ TEST(many_objects, that_touch_and_overlap_are_met_as_one_after_the_other) {
   }
 }
 
+// Where a light sees few forms of a tile, packs look for them; once something passes close before the camera it sees many, and squares do.
+// What does not change meanwhile is in their shade as before.
+TEST(many_objects, of_which_a_light_sees_more_while_something_passes) {
+  Random random(87);
+  for (int trial = 0; trial < 8; ++trial) {
+    Scene scene;
+    scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}};
+    scene.objects.push_back(object(Plane{{0, 0, 4}, Vec3{0, 0, -1}}));
+    for (int i = 0; i < 40 + 10 * (trial % 4); ++i) {
+      const double z = random.between(1.5, 3.5);
+      scene.objects.push_back(object(Sphere{Vec3{random.between(-0.7, 0.7) * z, random.between(-0.4, 0.4) * z, z}, random.between(0.05, 0.15)}));
+    }
+    Object passing = object(Rectangle{{random.between(-0.3, 0.1), random.between(-0.15, 0.15), 0.5}, {0.15, 0.1}});
+    passing.velocity_m_per_s = {random.between(2, 10), random.between(-1, 1), 0};
+    scene.objects.push_back(passing);
+    EXPECT_GT(expect_same_without_culling(scene, small_camera(3, random)), 20);
+  }
+}
+
 // As many as a scene may have, of which one tile holds more than any list had room for.
 TEST(many_objects, in_one_tile_as_many_as_there_may_be) {
   Random random(84);

@@ -115,7 +115,7 @@ ThinThing thin_thing(Random& random, const Vec3& sun) {
 /// Goes from the shadow of a scene's only thing on a screen far behind it, halving, to its border. @return 1 where it has begun in the shadow
 int graze(const scene::SceneView& s, const Vec3& start, const Vec3& way, int trial) {
   const Vec3 sun{s.toward_sun->x, s.toward_sun->y, s.toward_sun->z};
-  const pipeline::OnScreen screen(*s.toward_sun);
+  const pipeline::OnScreen<float> screen(*s.toward_sun);
   const scene::Alongs alongs = s.sun_still();
   const auto dark = [&](double far) {
     const Vec3 at = start + far * way, back = at - (base::dot(at, sun) + 5) * sun;
@@ -247,7 +247,7 @@ TEST(clusters, leave_all_shadows_of_the_sun) {
     const scene::SceneView& s = crowd.frozen.view();
     const int moment = trial % 2;
     const float* sun = s.sun(moment);
-    const pipeline::OnScreen screen(s.toward_sun[moment]);
+    const pipeline::OnScreen<float> screen(s.toward_sun[moment]);
     for (const scene::Alongs& alongs : {s.sun_still(), s.sun_moving(moment)}) {
       Culler culler(alongs);
       for (int i = 0; i < 200; ++i) {
