@@ -156,11 +156,12 @@ void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, Clust
   std::iota(memory.bodies.begin(), memory.bodies.end(), 0);
   sort(middles, memory.bodies.data(), memory.bodies.data() + of.count);
   out.count = (of.count + cluster_size - 1) / cluster_size;
+  out.upper = out.groups() + (out.groups() + cluster_size - 1) / cluster_size;
   memory.bodies.resize(in_rows(cluster_size, out.count), -1);
   memory.bodies.resize(in_rows(cluster_size, 3 * out.count));  // ranks and order
   const int rows = moments * (1 + scene.lights), light_rows = scene.has_sun != 0 ? moments : 0;
-  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.upper(), rows));
-  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.upper(), light_rows));
+  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.upper, rows));
+  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.upper, light_rows));
   const int moments_around = scene.bounces != 0 ? moments : 0;
   memory.bodies_around.resize(in_rows(out.count, moments_around)), memory.clusters_around.resize(in_rows(out.groups(), moments_around));
   out.bodies = memory.bodies.data();
@@ -174,7 +175,7 @@ void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& me
   const ClustersOf<T>& of = group.clusters.of<T>();
   if (of.count == 0) return;
   const auto clusters = static_cast<std::size_t>(of.count), groups = static_cast<std::size_t>(of.groups()),
-             upper = static_cast<std::size_t>(of.upper());
+             upper = static_cast<std::size_t>(of.upper);
   const auto bodies = static_cast<std::size_t>(group.bodies.of<T>().count);
   const DerivedOf<T>& derived = group.derived.of<T>();
   const auto shape_at = [&](std::int32_t body, std::size_t moment) {

@@ -51,16 +51,15 @@ struct ClustersOf {
   const ManyBounds *bodies_along, *clusters_along;   ///< [moment][…]
   const ManyBoxes *bodies_around, *clusters_around;  ///< [moment][…] where light bounces
   std::int32_t count;
+  std::int32_t upper;  ///< rectangles for each view in clusters_seen and clusters_along: of clusters, by 32, and of 32 of these groups each
 
-  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * upper(), count}; }
-  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * upper(), count}; }
+  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * upper, count}; }
+  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * upper, count}; }
   TOFRAY_FN Boxes around(int moment) const {
     return {bodies, bodies_around + moment * count, clusters_around + moment * groups(), bodies_around == nullptr ? 0 : count};
   }
   /// How often 32 clusters are looked at.
   TOFRAY_FN int groups() const { return (count + cluster_size - 1) / cluster_size; }
-  /// … and 32 of these groups, too.
-  TOFRAY_FN int upper() const { return groups() + (groups() + cluster_size - 1) / cluster_size; }
   bool operator==(const ClustersOf&) const = default;
 };
 

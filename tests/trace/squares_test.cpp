@@ -19,33 +19,34 @@ using shape::TileRays;
 
 namespace {
 
-struct Set {
+struct SquareSet {
   const char* name;
   Isa isa;
   SquareSearchFunction search;
 };
 #define ONE_SET(set) {#set, Isa::set, square_search_##set},
-const std::vector<Set> all_sets = {TOFRAY_SETS(ONE_SET)};
+const std::vector<SquareSet> square_sets = {TOFRAY_SETS(ONE_SET)};
 #undef ONE_SET
 
 /// Those that run here, the widest last.
-std::vector<Set> sets_here() {
-  std::vector<Set> out;
-  for (const Set& set : all_sets)
+std::vector<SquareSet> sets_here() {
+  std::vector<SquareSet> out;
+  for (const SquareSet& set : square_sets)
     if (backend::can_run(set.isa)) out.push_back(set);
   return out;
 }
 
-/// Spheres, boxes and instances of one mesh, on a lattice: they touch their neighbours, share faces with them or stand in them, and some
-/// stand twice at one place.
+/// Spheres, boxes and instances of one mesh, on a lattice: they touch their neighbours, have parts of faces in common with them or stand in
+/// them, and some stand twice at one place.
 Scene lattice(Random& random, int side) {
   constexpr double step = 0.1;
   Scene scene;
+  std::vector<Object> twins;
   scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}};
   const auto rock = shared(single(stone(random, 1, 0.7 * step, {0, 0, 0})));
   for (int i = 0; i < side * side * side; ++i) {
     const Vec3 at{step * (i % side - 0.5 * side), step * (i / side % side - 0.5 * side), 1.2 + step * (i / side / side)};
-    const Vec3 half{0.5 * step, 0.5 * step, 0.5 * step};
+    const Vec3 half{random.between(0.5, 1.2) * step, random.between(0.5, 1.2) * step, 0.5 * step};
     Object one;
     switch (random.below(6)) {
       case 0: one.shape = Sphere{at, 0.5 * step}; break;
@@ -57,8 +58,9 @@ Scene lattice(Random& random, int side) {
         if (random.below(2) == 0) one.rotation = {random.direction(), random.between(-3, 3)};
     }
     scene.objects.push_back(one);
-    if (random.below(6) == 0) scene.objects.push_back(one);
+    if (random.below(6) == 0) twins.push_back(one);
   }
+  scene.objects.insert(scene.objects.end(), twins.rbegin(), twins.rend());
   scene.ambient.direction = Vec3{0.3, 0.5, 1} + random.point(0.3);
   return scene;
 }
@@ -104,7 +106,7 @@ scene::Bounds on_screen(const SquareTile& tile, const shape::Vec& toward_sun) {
   return seen.bounds();
 }
 
-bool same(const SquareSearch& what, const SquareTile& one, const SquareTile& other, int i) {
+bool same_at(const SquareSearch& what, const SquareTile& one, const SquareTile& other, int i) {
   if (what.shadow) return (one.dark[i] > 0) == (other.dark[i] > 0);
   if (std::memcmp(one.w + i, other.w + i, sizeof one.w[i]) != 0) return false;
   return !(one.w[i] > 0) || (one.facet[i] == other.facet[i] && one.triangle[i] == other.triangle[i]);
@@ -117,21 +119,22 @@ struct Counts {
 /// All sets find in the rectangle what one of them finds without any, which is left in the tile.
 /// @param sets  the first of them does
 template <class Forms>
-void compare(const std::vector<Set>& sets, SquareSearch what, const Forms& forms, const scene::Bounds& rectangle, Counts& counts) {
+void compare_squares(const std::vector<SquareSet>& sets, SquareSearch what, const Forms& forms, const scene::Bounds& rectangle, Counts& counts) {
   static SquareTile reference, other;
   Culler culler(forms);
   what.marks = culler.marks(), what.room = culler.room();
   SquareTile& tile = *what.tile;
   reference = tile, what.tile = &reference;
   sets.front().search(&what);
-  for (const Set& set : sets) {
+  for (const SquareSet& set : sets) {
     SquareSearch how = what;
     other = tile;
     how.rectangle = &rectangle, how.tile = &other;
     set.search(&how);
     counts.squares += how.by_squares;
-    for (int i = 0; i < TileRays::count; ++i)
-      if (tile.wanted[i] > 0) ASSERT_TRUE(same(what, reference, other, i)) << set.name << ", ray " << i;
+    for (int i = 0; i < TileRays::count; ++i) {
+      ASSERT_TRUE(!(tile.wanted[i] > 0) || same_at(what, reference, other, i)) << set.name << ", ray " << i;
+    }
   }
   tile = reference;
   for (int i = 0; i < TileRays::count; ++i) {
@@ -146,40 +149,38 @@ class Squares : public testing::TestWithParam<int> {};
 
 // A dozen thousand rays in each of four scenes, and their shadow rays; so many as TOFRAY_LONG_RAYS says where it is set.
 TEST_P(Squares, find_what_one_form_after_the_other_has) {
-  const std::vector<Set> sets = sets_here();
+  const std::vector<SquareSet> sets = sets_here();
   if (sets.empty()) GTEST_SKIP() << "this machine has no fused products";
-  const std::vector<Set> with_packs(sets.size() > 1 ? sets.begin() + 1 : sets.begin(), sets.end());
+  const std::vector<SquareSet> with_packs(sets.size() > 1 ? sets.begin() + 1 : sets.begin(), sets.end());
   Random random(static_cast<std::uint64_t>(500 + GetParam()));
   const Scene scene = lattice(random, with_sanitizers ? 7 : 12);
-  scene::FrozenScene frozen(scene, {Vec3{0.03, 0, 0}, 0.5 * random.direction()}, 0);
-  frozen.look({}, {});
-  frozen.derive();
+  const scene::FrozenScene frozen(scene, {Vec3{0.03, 0, 0}, 0.5 * random.direction()}, 1);
   const scene::SceneView& s = frozen.view();
   Counts seen, shaded, in_sun;
   static SquareTile tile, there;
   const int rays = often_unless("TOFRAY_LONG_RAYS", 12'000);
   for (int tiles = 0; seen.rays < rays && !HasFatalFailure(); ++tiles) {
-    const std::vector<Set>& asked = tiles % 16 == 0 ? sets : with_packs;  // one ray after the other is slow
+    const std::vector<SquareSet>& asked = tiles % 16 == 0 ? sets : with_packs;  // one ray after the other is slow
     look_somewhere(random, tile);
     scene::Bounds rectangle{};
     ASSERT_TRUE(rectangle_of(tile, rectangle));
     const scene::Forms forms = s.camera_still();
-    compare(asked, {&forms, nullptr, false, nullptr, nullptr, nullptr, {}, nullptr, &tile, false}, forms, rectangle, seen);
+    compare_squares(asked, {&forms, nullptr, false, nullptr, nullptr, nullptr, {}, nullptr, &tile, false}, forms, rectangle, seen);
     for (int l = 0; l < s.lights; ++l) {
       const scene::Forms from_light = s.light_still(l);
       go_there(random, s, tile, s.light_positions + l, there);
       if (!rectangle_of(there, rectangle)) continue;
-      compare(asked, {&from_light, nullptr, true, nullptr, nullptr, nullptr, {}, nullptr, &there, false}, from_light, rectangle, shaded);
+      compare_squares(asked, {&from_light, nullptr, true, nullptr, nullptr, nullptr, {}, nullptr, &there, false}, from_light, rectangle, shaded);
     }
     const scene::Alongs alongs = s.sun_still();
     go_there(random, s, tile, nullptr, there);
-    compare(asked, {nullptr, &alongs, true, s.toward_sun, s.sun(0), nullptr, {}, nullptr, &there, false}, alongs,
+    compare_squares(asked, {nullptr, &alongs, true, s.toward_sun, s.sun(0), nullptr, {}, nullptr, &there, false}, alongs,
             on_screen(there, *s.toward_sun), in_sun);
   }
   for (const Counts& one : {seen, shaded, in_sun}) {
     EXPECT_GT(one.met, one.rays / 10);
     EXPECT_LT(one.met, one.rays * 99 / 100);
-    if (sets.size() > 1) EXPECT_GT(one.squares * TileRays::count, one.rays / 4);
+    EXPECT_GT(one.squares * TileRays::count, sets.size() > 1 ? one.rays / 4 : -1);
   }
 }
 INSTANTIATE_TEST_SUITE_P(scene, Squares, testing::Range(0, 4));
