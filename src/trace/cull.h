@@ -41,7 +41,7 @@ template <class T>
 struct PickedForms {
   using Form = typename T::Form;
   static constexpr bool in_depth = true;  ///< they have an order
-  static constexpr int few = shape::many_of<T> ? 1 : 2 * few_forms;  ///< so many go from pack to pack
+  static constexpr int few = shape::many_of<T> ? 1 : few_forms;  ///< so many go from pack to pack: they are put in order, their rectangles are not, and nobody narrows them
   Picked picked;
   const Form* forms;
   std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not
