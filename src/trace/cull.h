@@ -41,7 +41,8 @@ template <class T>
 struct PickedForms {
   using Form = typename T::Form;
   static constexpr bool in_depth = true;  ///< they have an order
-  static constexpr int few = shape::many_of<T> ? 1 : few_forms;  ///< so many go from pack to pack: they are put in order, their rectangles are not, and nobody narrows them
+  /// So many go from pack to pack. They are put in order and their rectangles are not, so that nobody may narrow them.
+  static constexpr int few = shape::many_of<T> ? 1 : few_forms;
   Picked picked;
   const Form* forms;
   std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not

@@ -146,7 +146,8 @@ TEST(many_objects, of_which_a_light_sees_more_while_something_passes) {
     scene.objects.push_back(object(Plane{{0, 0, 4}, Vec3{0, 0, -1}}));
     for (int i = 0; i < 40 + 10 * (trial % 4); ++i) {
       const double z = random.between(1.5, 3.5);
-      scene.objects.push_back(object(Sphere{Vec3{random.between(-0.7, 0.7) * z, random.between(-0.4, 0.4) * z, z}, random.between(0.05, 0.15)}));
+      scene.objects.push_back(
+          object(Sphere{Vec3{random.between(-0.7, 0.7) * z, random.between(-0.4, 0.4) * z, z}, random.between(0.05, 0.15)}));
     }
     Object passing = object(Rectangle{{random.between(-0.3, 0.1), random.between(-0.15, 0.15), 0.5}, {0.15, 0.1}});
     passing.velocity_m_per_s = {random.between(2, 10), random.between(-1, 1), 0};

@@ -79,8 +79,7 @@ template <class F, class Forms, class ByPacks, class PutRay, class BySquares>
 void shade(const SquareSearch& what, const Forms& culled, TileRays& rays, const ByPacks& by_packs, const PutRay& put_ray,
            const BySquares& by_squares) {
   SquareTile& tile = *what.tile;
-  for (int q = 0; q < packs<F>; ++q)
-    num::store(tile.dark + q * num::lanes<F>, num::select(by_packs(q), F(1.0f), F(0.0f)), num::lanes<F>);
+  for (int q = 0; q < packs<F>; ++q) num::store(tile.dark + q * num::lanes<F>, num::select(by_packs(q), F(1.0f), F(0.0f)), num::lanes<F>);
   if constexpr (shape::has_beams<F>) {
     if (what.rectangle == nullptr) return;
     for (int q = 0; q < packs<F>; ++q) put_ray(q);

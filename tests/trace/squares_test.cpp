@@ -119,7 +119,8 @@ struct Counts {
 /// All sets find in the rectangle what one of them finds without any, which is left in the tile.
 /// @param sets  the first of them does
 template <class Forms>
-void compare_squares(const std::vector<SquareSet>& sets, SquareSearch what, const Forms& forms, const scene::Bounds& rectangle, Counts& counts) {
+void compare_squares(const std::vector<SquareSet>& sets, SquareSearch what, const Forms& forms, const scene::Bounds& rectangle,
+                     Counts& counts) {
   static SquareTile reference, other;
   Culler culler(forms);
   what.marks = culler.marks(), what.room = culler.room();
@@ -170,12 +171,13 @@ TEST_P(Squares, find_what_one_form_after_the_other_has) {
       const scene::Forms from_light = s.light_still(l);
       go_there(random, s, tile, s.light_positions + l, there);
       if (!rectangle_of(there, rectangle)) continue;
-      compare_squares(asked, {&from_light, nullptr, true, nullptr, nullptr, nullptr, {}, nullptr, &there, false}, from_light, rectangle, shaded);
+      compare_squares(asked, {&from_light, nullptr, true, nullptr, nullptr, nullptr, {}, nullptr, &there, false}, from_light, rectangle,
+                      shaded);
     }
     const scene::Alongs alongs = s.sun_still();
     go_there(random, s, tile, nullptr, there);
     compare_squares(asked, {nullptr, &alongs, true, s.toward_sun, s.sun(0), nullptr, {}, nullptr, &there, false}, alongs,
-            on_screen(there, *s.toward_sun), in_sun);
+                    on_screen(there, *s.toward_sun), in_sun);
   }
   for (const Counts& one : {seen, shaded, in_sun}) {
     EXPECT_GT(one.met, one.rays / 10);
