@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/tile_view.h"
+#include "pipeline/tile_squares.h"
 
 /// One tile of pixels of the processor: what it can meet, and its pixels pack by pack.
 namespace tofray::pipeline {
@@ -92,7 +92,7 @@ struct Near {
   TOFRAY_FN const trace::CulledAlong& still_along(const Setup&) const { return *along_still.now; }
   TOFRAY_FN const trace::CulledAlong& moving_along(const Setup&, int) const { return *along_moving.now; }
 
-  /// What meshes keep from the lights and the sun, where all pixels of the tile look at them at once.
+  /// What is kept from the lights and the sun by meshes and by what there is much of, which all pixels of the tile look at at once.
   static constexpr int sun = flow::max_lights;
   bool has_shades;
   int pack;                               ///< that is asked for
@@ -155,6 +155,7 @@ struct alignas(64) Scratch {
   trace::TileRays rays;
   TilePoints points;
   alignas(64) trace::TileRays::Array changed;  ///< pixels that do not see what stands still
+  trace::TileSquares squares;
 };
 
 template <class F, bool can_move>
@@ -177,8 +178,8 @@ class TileWalk {
       scratch.near.still.look(scratch.near.camera_still, ray, in_use<F>(p));
       scratch.still[q] = see_still(s, scratch.near, ray);
     }
-    see_meshes(scratch.near.camera_still, scratch.still);
-    scratch.near.has_shades = trace::any_mesh(s.scene);
+    see_at_once(scratch.near.camera_still, scratch.still);
+    scratch.near.has_shades = trace::any_mesh(s.scene) || trace::any_clusters(s.scene);
   }
 
   TOFRAY_FN int moments() const { return can_move ? s_.scene.moments : 1; }
@@ -208,7 +209,7 @@ class TileWalk {
       trace::cull<F>(s_.scene.sun_moving(now.index), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks,
                      scratch_.near.sun_moving);
     }
-    if constexpr (can_move) shade_what_is_seen();
+    if constexpr (can_move) shade_what_is_seen(now.index);
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
@@ -231,12 +232,13 @@ class TileWalk {
       scratch_.near.moving.look(scratch_.near.camera_moving, ray, in_use<F>(p));
       scratch_.hits[q] = see_moving(s_, scratch_.near, moment, ray, scratch_.still[q]);
     }
-    see_meshes(scratch_.near.camera_moving, scratch_.hits);
+    see_at_once(scratch_.near.camera_moving, scratch_.hits);
   }
 
-  TOFRAY_FN void see_meshes(const trace::Culled& culled, flow::Hit<F>* hits) {
+  TOFRAY_FN void see_at_once(const trace::Culled& culled, flow::Hit<F>* hits) {
     if constexpr (shape::has_beams<F>) {
-      if (trace::any_mesh(culled)) pipeline::see_meshes<F>(s_, *this, culled, scratch_.rays, hits);
+      if (culled.by_squares) see_by_squares<F>(s_, *this, culled, scratch_.rays, scratch_.squares, hits);
+      if (trace::any_mesh(culled)) see_meshes<F>(s_, *this, culled, scratch_.rays, hits);
     }
   }
 
@@ -254,38 +256,50 @@ class TileWalk {
     seen_from_lights_ = hits;
   }
 
-  /// What meshes that stand still keep from the lights, of what stands still: it is so at all moments.
+  /// What meshes, and what there is much of, that stand still keep from the lights, of what stands still: it is so at all moments.
   TOFRAY_FN void shade_what_stands_still(int moment) {
     if constexpr (shape::has_beams<F>) {
       if (!scratch_.near.has_shades || still_is_shaded_) return;
       look_from_lights(moment, scratch_.still);
-      shade_by_still(scratch_.still, nullptr, scratch_.shades.still);
+      shade_by_still(moment, scratch_.still, nullptr, scratch_.shades.still);
       scratch_.near.of_still = scratch_.shades.still, scratch_.near.of_moving = scratch_.shades.moving;
       still_is_shaded_ = true;
     }
   }
-  /// … and of what is seen at a moment; and what meshes keep from it that move.
-  TOFRAY_FN void shade_what_is_seen() {
+  /// … and of what is seen at a moment; and what they keep from it that move.
+  TOFRAY_FN void shade_what_is_seen(int moment) {
     if constexpr (shape::has_beams<F>) {
       Near<can_move>& near = scratch_.near;
       Shades<can_move>& shades = scratch_.shades;
       if (!near.has_shades) return;
       near.of_still = hits_ == scratch_.still ? shades.still : shades.current;
+      const bool squares = any_by_squares(s_, near.light_moving, near.sun_moving);
       if (hits_ != scratch_.still) {
         put_changed(scratch_.still, hits_, scratch_.changed);
         const KnownShades known{shades.still, scratch_.changed};
-        shade_by_still(hits_, &known, shades.current);
-      } else if (points_of_ != hits_) {
-        put_points(s_, *this, hits_, scratch_.points);
-        points_of_ = hits_;
+        shade_by_still(moment, hits_, &known, shades.current);
+      } else if (squares || trace::any_mesh(s_.scene)) {
+        look_for_points(hits_);
       }
       find_shades<F>(s_, near.light_moving, near.sun_moving, scratch_.points, nullptr, scratch_.rays, shades.moving);
+      if (squares) shade_by_squares(moment, near.light_moving, near.sun_moving, s_.scene.sun_moving(moment), shades.moving);
     }
   }
-  TOFRAY_FN void shade_by_still(const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
+  TOFRAY_FN void shade_by_still(int moment, const flow::Hit<F>* hits, const KnownShades* known, MeshShade* shades) {
+    const Near<can_move>& near = scratch_.near;
+    const bool squares = any_by_squares(s_, near.light_still, near.sun_still);
+    if (known != nullptr || squares || trace::any_mesh(s_.scene)) look_for_points(hits);
+    find_shades<F>(s_, near.light_still, near.sun_still, scratch_.points, known, scratch_.rays, shades);
+    if (squares) shade_by_squares(moment, near.light_still, near.sun_still, s_.scene.sun_still(), shades);
+  }
+  TOFRAY_FN void look_for_points(const flow::Hit<F>* hits) {
+    if (points_of_ == hits && hits == scratch_.still) return;
     put_points(s_, *this, hits, scratch_.points);
     points_of_ = hits;
-    find_shades<F>(s_, scratch_.near.light_still, scratch_.near.sun_still, scratch_.points, known, scratch_.rays, shades);
+  }
+  TOFRAY_FN void shade_by_squares(int moment, const trace::Culled* from_light, const trace::CulledAlong& sun, const scene::Alongs& alongs,
+                                  MeshShade* shades) {
+    find_shades_by_squares<F>(s_, from_light, sun, alongs, moment, points_of_, scratch_.points, scratch_.rays, scratch_.squares, shades);
   }
 
   const Setup& s_;

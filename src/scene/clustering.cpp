@@ -49,8 +49,9 @@ void sort(const std::vector<Point>& points, std::int32_t* from, std::int32_t* to
   sort(points, from, half), sort(points, half, to);
 }
 
-void put(ManyBounds& many, int i, const Bounds& one) {
+void put(ManyBounds& many, int i, const Bounds& one, float near) {
   many.x_min[i] = one.x_min, many.x_max[i] = one.x_max, many.y_min[i] = one.y_min, many.y_max[i] = one.y_max;
+  many.near[i] = near;
 }
 
 constexpr Bounds none{infinite, -infinite, infinite, -infinite};
@@ -65,18 +66,38 @@ Bounds around(const ManyBounds& many) {
   return out;
 }
 
+float nearest_of(const ManyBounds& many) { return *std::min_element(many.near, many.near + cluster_size); }
+
 /// One row.
-template <class Form>
-void fill(const std::vector<std::int32_t>& bodies, const Form* forms, ManyBounds* of_bodies, ManyBounds* of_clusters) {
-  const int clusters = static_cast<int>(bodies.size()) / cluster_size;
+/// @param begins  (body): from which depth on it is met
+template <class Form, class Begins>
+void fill(const std::int32_t* bodies, int clusters, const Form* forms, const Begins& begins, ManyBounds* of_bodies,
+          ManyBounds* of_clusters) {
   for (int c = 0; c < clusters; ++c) {
     for (int i = 0; i < cluster_size; ++i) {
-      const std::int32_t body = bodies[static_cast<std::size_t>(c * cluster_size + i)];
-      put(of_bodies[c], i, body < 0 ? none : forms[body].bounds);
+      const std::int32_t body = bodies[c * cluster_size + i];
+      if (body < 0) {
+        put(of_bodies[c], i, none, infinite);
+      } else {
+        put(of_bodies[c], i, forms[body].bounds, begins(body));
+      }
     }
-    put(of_clusters[c / cluster_size], c % cluster_size, around(of_bodies[c]));
+    put(of_clusters[c / cluster_size], c % cluster_size, around(of_bodies[c]), nearest_of(of_bodies[c]));
   }
-  for (int c = clusters; c % cluster_size != 0; ++c) put(of_clusters[c / cluster_size], c % cluster_size, none);
+  for (int c = clusters; c % cluster_size != 0; ++c) put(of_clusters[c / cluster_size], c % cluster_size, none, infinite);
+  const int groups = (clusters + cluster_size - 1) / cluster_size;
+  ManyBounds* const of_groups = of_clusters + groups;
+  for (int g = 0; g < groups; ++g) put(of_groups[g / cluster_size], g % cluster_size, around(of_clusters[g]), nearest_of(of_clusters[g]));
+  for (int g = groups; g % cluster_size != 0; ++g) put(of_groups[g / cluster_size], g % cluster_size, none, infinite);
+}
+
+/// The places in clusters, the nearest to the camera first: who looks at those first learns soonest what is hidden behind them.
+void sort_by_depth(const ManyBounds* of_bodies, int clusters, int bodies, std::int32_t* ranks, std::int32_t* order) {
+  const auto near = [&](std::int32_t place) { return of_bodies[place / cluster_size].near[place % cluster_size]; };
+  std::iota(order, order + clusters * cluster_size, 0);
+  std::sort(order, order + clusters * cluster_size,
+            [&](std::int32_t a, std::int32_t b) { return near(a) < near(b) || (near(a) == near(b) && a < b); });
+  for (int i = 0; i < bodies; ++i) ranks[order[i]] = i;
 }
 
 /// A point where no ray comes to: at its least distance along one axis it is beyond all that is met.
@@ -108,12 +129,11 @@ void put_around(ManyBoxes& many, int i, const ManyBoxes& its) {
 
 /// The boxes of a moment.
 template <class T>
-void fill_boxes(const SceneView& scene, const BodiesOf<T>& of, int moment, const std::vector<std::int32_t>& bodies, ManyBoxes* of_bodies,
+void fill_boxes(const SceneView& scene, const BodiesOf<T>& of, int moment, const std::int32_t* bodies, int clusters, ManyBoxes* of_bodies,
                 ManyBoxes* of_clusters) {
-  const int clusters = static_cast<int>(bodies.size()) / cluster_size;
   for (int c = 0; c < clusters; ++c) {
     for (int i = 0; i < cluster_size; ++i) {
-      const std::int32_t body = bodies[static_cast<std::size_t>(c * cluster_size + i)];
+      const std::int32_t body = bodies[c * cluster_size + i];
       if (body < 0) {
         put_nothing(of_bodies[c], i);
       } else {
@@ -136,10 +156,12 @@ void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, Clust
   std::iota(memory.bodies.begin(), memory.bodies.end(), 0);
   sort(middles, memory.bodies.data(), memory.bodies.data() + of.count);
   out.count = (of.count + cluster_size - 1) / cluster_size;
+  out.upper = out.groups() + (out.groups() + cluster_size - 1) / cluster_size;
   memory.bodies.resize(in_rows(cluster_size, out.count), -1);
+  memory.bodies.resize(in_rows(cluster_size, 3 * out.count));  // ranks and order
   const int rows = moments * (1 + scene.lights), light_rows = scene.has_sun != 0 ? moments : 0;
-  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.groups(), rows));
-  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.groups(), light_rows));
+  memory.bodies_seen.resize(in_rows(out.count, rows)), memory.clusters_seen.resize(in_rows(out.upper, rows));
+  memory.bodies_along.resize(in_rows(out.count, light_rows)), memory.clusters_along.resize(in_rows(out.upper, light_rows));
   const int moments_around = scene.bounces != 0 ? moments : 0;
   memory.bodies_around.resize(in_rows(out.count, moments_around)), memory.clusters_around.resize(in_rows(out.groups(), moments_around));
   out.bodies = memory.bodies.data();
@@ -150,17 +172,33 @@ void build_one(const SceneView& scene, const BodiesOf<T>& of, int moments, Clust
 
 template <class T>
 void update_one(const SceneView& scene, const Group& group, ClusterMemory<T>& memory) {
-  const std::size_t clusters = memory.bodies.size() / cluster_size, groups = (clusters + cluster_size - 1) / cluster_size;
-  if (clusters == 0) return;
+  const ClustersOf<T>& of = group.clusters.of<T>();
+  if (of.count == 0) return;
+  const auto clusters = static_cast<std::size_t>(of.count), groups = static_cast<std::size_t>(of.groups()),
+             upper = static_cast<std::size_t>(of.upper);
   const auto bodies = static_cast<std::size_t>(group.bodies.of<T>().count);
   const DerivedOf<T>& derived = group.derived.of<T>();
-  for (std::size_t row = 0; row < memory.bodies_seen.size() / clusters; ++row)
-    fill(memory.bodies, derived.forms + row * bodies, &memory.bodies_seen[row * clusters], &memory.clusters_seen[row * groups]);
+  const auto shape_at = [&](std::int32_t body, std::size_t moment) {
+    const int m = static_cast<int>(moment);
+    return body_at(scene, group.bodies.of<T>().at(m, body), m);
+  };
+  const auto eyes = static_cast<std::size_t>(1 + scene.lights);
+  for (std::size_t row = 0; row < memory.bodies_seen.size() / clusters; ++row) {
+    const shape::Vec eye = row % eyes == 0 ? shape::Vec{0, 0, 0} : scene.light_positions[row % eyes - 1];
+    fill(
+        of.bodies, of.count, derived.forms + row * bodies, [&](std::int32_t body) { return begins_at(shape_at(body, row / eyes), eye); },
+        &memory.bodies_seen[row * clusters], &memory.clusters_seen[row * upper]);
+  }
   for (std::size_t row = 0; row < memory.bodies_along.size() / clusters; ++row)
-    fill(memory.bodies, derived.along + row * bodies, &memory.bodies_along[row * clusters], &memory.clusters_along[row * groups]);
+    fill(
+        of.bodies, of.count, derived.along + row * bodies,
+        [&](std::int32_t body) { return begins_along(shape_at(body, row), scene.toward_sun[row]); }, &memory.bodies_along[row * clusters],
+        &memory.clusters_along[row * upper]);
   for (std::size_t row = 0; row < memory.bodies_around.size() / clusters; ++row)
-    fill_boxes(scene, group.bodies.of<T>(), static_cast<int>(row), memory.bodies, &memory.bodies_around[row * clusters],
+    fill_boxes(scene, group.bodies.of<T>(), static_cast<int>(row), of.bodies, of.count, &memory.bodies_around[row * clusters],
                &memory.clusters_around[row * groups]);
+  std::int32_t* const ranks = memory.bodies.data() + of.count * cluster_size;
+  sort_by_depth(memory.bodies_seen.data(), of.count, group.bodies.of<T>().count, ranks, ranks + of.count * cluster_size);
 }
 
 template <class... T, class Each>

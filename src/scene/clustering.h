@@ -10,7 +10,7 @@ namespace tofray::scene {
 /// One shape's bodies sorted into clusters, and where these are seen, and are.
 template <class T>
 struct ClusterMemory {
-  std::vector<std::int32_t> bodies;
+  std::vector<std::int32_t> bodies;  ///< then their ranks and their order, as of Clusters
   std::vector<ManyBounds> bodies_seen, clusters_seen, bodies_along, clusters_along;
   std::vector<ManyBoxes> bodies_around, clusters_around;
 };
@@ -28,7 +28,7 @@ class Clustering {
   /// @param group    of the scene
   /// @param moments  that it has forms for
   void build(const SceneView& scene, Group& group, int moments);
-  /// Takes the rectangles out of the forms and, where light bounces, the boxes out of the shapes.
+  /// Takes the rectangles out of the forms and, where light bounces, the boxes out of the shapes; and sorts the bodies by depth.
   void update(const SceneView& scene, const Group& group);
 
  private:

@@ -118,6 +118,20 @@ TOFRAY_FN bool can_shade(const Along& form, const Bounds& r) {
   }
 }
 
+/// Rays from the origin meet the shape nowhere before this z, also as it is computed in single precision. Only shapes whose inverse range is
+/// right to some roundings know one: a plane that is almost seen from its edge may be met far before all of its points.
+template <class T>
+TOFRAY_FN float begins_at(const T&, const Vec&) {
+  return -3e38f;
+}
+/// … nor does it keep light from the direction s off what is there: by −P·s.
+template <class T>
+TOFRAY_FN float begins_along(const T&, const Vec&) {
+  return -3e38f;
+}
+/// Room for more than rounding, as a share of how far away a shape is.
+TOFRAY_CONSTANT double depth_room = 1e-5;
+
 /// P·m + offset in the camera frame.
 template <class F>
 TOFRAY_FN F affine(const Place<F>& p, const float* m, float offset) {

@@ -195,6 +195,14 @@ TOFRAY_FN MeshForm seen_from(const Mesh& mesh, const Vec& origin) {
   return form;
 }
 
+TOFRAY_FN float begins_at(const Mesh& mesh, const Vec& origin) {
+  const Vec from = mesh.axes * (origin - mesh.origin);
+  return single(span_along(mesh, {0, 0, 1}).low - origin.z - depth_room * (reach(mesh, from) + length(from)));
+}
+TOFRAY_FN float begins_along(const Mesh& mesh, const Vec& s) {
+  return single(-span_along(mesh, s).high - depth_room * (reach(mesh, {0, 0, 0}) + length(mesh.origin)));
+}
+
 TOFRAY_FN bool can_meet(const MeshForm& mesh, const Bounds& r) { return overlap(mesh.bounds, r); }
 
 TOFRAY_FN MeshAlong seen_along(const Mesh& mesh, const Vec& s) {

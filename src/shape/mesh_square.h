@@ -29,6 +29,8 @@ class MeshSquare {
     see_how_far();
   }
 
+  /// From the root.
+  TOFRAY_FN void run() { go_down(0); }
   TOFRAY_FN void run(const TileEntries& from) {
     constexpr int n = num::lanes<F>;
     for (int first = 0; first < from.count; first += n) {
@@ -171,6 +173,26 @@ TOFRAY_APART void search_square(const MeshForm& form, const Beam& beam, const Ti
   }
   num::store_square(rays.t + at, TileRays::row, hit.t);
   num::store_square(rays.triangle + at, TileRays::row, num::from_bits(num::to_uint(hit.triangle)));
+}
+
+/// Sixteen rays of one origin, from the root: as a beam or, where they are no beam or few, each by itself.
+template <bool any, class F>
+TOFRAY_APART void search_from_root(const MeshForm& form, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+  constexpr int few = 3;
+  const F(&d)[3] = ray.direction;
+  const int axis = num::first_of(wanted, longest_of(d)), x = next_coordinate(axis), y = next_coordinate(x);
+  const F length = num::select(wanted, d[axis], F(1.0f)), slope[2] = {d[x] / length, d[y] / length};
+  const bool forward = !num::any(length <= F(0.0f)), backward = !num::any(wanted & (d[axis] >= F(0.0f)));
+  const bool steep = num::any(wanted & (num::max(num::abs(slope[0]), num::abs(slope[1])) >= F(4.0f)));
+  if (__builtin_popcount(num::lanes_of(wanted)) <= few || steep || !(forward || backward))
+    return search_mesh<any>(form, ray, shortest, wanted, hit);
+  Beam beam;
+  beam.start(form), beam.go_along(axis, forward);
+  if (form.cut == nullptr) {
+    MeshSquare<any, false, F>(form, beam, d, slope, shortest, wanted, hit).run();
+  } else {
+    MeshSquare<any, true, F>(form, beam, d, slope, shortest, wanted, hit).run();
+  }
 }
 
 /// The beam of a tile along the coordinate that is longest for most rays; and their slopes by it.

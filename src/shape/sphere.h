@@ -93,6 +93,14 @@ TOFRAY_FN SphereForm seen_from(const Sphere& s, const Vec& origin) {
   return form;
 }
 
+TOFRAY_FN float begins_at(const Sphere& s, const Vec& origin) {
+  const Vec c = s.center - origin;
+  return single(c.z - s.radius - depth_room * (length(c) + s.radius));
+}
+TOFRAY_FN float begins_along(const Sphere& sphere, const Vec& s) {
+  return single(-dot(sphere.center, s) - sphere.radius - depth_room * (length(sphere.center) + sphere.radius));
+}
+
 TOFRAY_FN bool can_meet(const SphereForm& sphere, const Bounds& r) { return overlap(sphere.bounds, r); }
 
 /// The stable form (Hearn and Baker; Haines et al. 2019): with b = d·c and l = c − (b/a)d, a = d·d, the discriminant is

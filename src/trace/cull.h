@@ -7,11 +7,14 @@
 /// what is left stays in its order, on which it depends which of two surfaces at one place is seen.
 ///
 /// The rays of a tile look at clusters of bodies (scene/clusters.h), then at the bodies of those that they can meet. Where many are left,
-/// each pack of the tile looks once more at these alone (narrow).
+/// squares of the tile's rays look once more at these alone (square_search.h), or each of its packs does (narrow).
 namespace tofray::trace {
 
 using scene::cluster_size;
 using scene::ManyBounds;
+
+/// To narrow a list takes a pack about as long as to test as many forms.
+constexpr int few_forms = 12;
 
 /// Indices of the forms that are left, and their rectangles.
 struct Picked {
@@ -37,16 +40,22 @@ struct Walk {
 template <class T>
 struct PickedForms {
   using Form = typename T::Form;
+  static constexpr bool in_depth = true;  ///< they have an order
+  /// So many go from pack to pack. They are put in order and their rectangles are not, so that nobody may narrow them.
+  static constexpr int few = shape::many_of<T> ? 1 : few_forms;
   Picked picked;
   const Form* forms;
+  std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
 };
 /// … and as parallel light does.
 template <class T>
 struct PickedAlongs {
   using Form = typename T::Along;
+  static constexpr bool in_depth = false;
   Picked picked;
   const Form* forms;
+  std::int32_t in_squares;  ///< not 0: squares of a tile look for what is in the clusters
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
 };
 
@@ -55,8 +64,9 @@ template <template <class> class From>
 struct CulledOf : shape::ByShape<From> {
   unsigned char* room;  ///< for room_of(bodies) bytes, aligned to 64; what is picked is written there
   bool many;            ///< so many that it pays to narrow them
+  bool by_squares;      ///< there are some that squares look for
 
-  TOFRAY_FN bool empty() const { return count() == 0; }
+  TOFRAY_FN bool empty() const { return count() == 0 && !by_squares; }
   TOFRAY_FN int count() const { return count(shape::Shapes{}); }
   template <class T>
   TOFRAY_FN Walk<typename From<T>::Form> walk() const {
@@ -146,14 +156,15 @@ TOFRAY_FN std::size_t marks_bytes(const scene::Bodies& bodies) {
   return static_cast<std::size_t>(Marks::words_of(most_bodies(shape::Shapes{}, bodies))) * sizeof(std::uint64_t);
 }
 
-/// A bit for each of 32 that overlap the rectangle.
-template <class F>
-TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r) {
+/// A bit for each of 32 that overlap the rectangle and, if `deep`, begin before `far`.
+template <class F, bool deep = false>
+TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r, float far = 0) {
   std::uint32_t out = 0;
   for (int i = 0; i < cluster_size; i += num::lanes<F>) {
     const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load<F>(from + i, num::lanes<F>); };
     const F x_min = load(many.x_min), x_max = load(many.x_max), y_min = load(many.y_min), y_max = load(many.y_max);
-    const auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
+    auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
+    if (deep) met = met & (load(many.near) <= F(far));
     out |= num::lanes_of(met) << i;
   }
   return out;
@@ -174,45 +185,109 @@ TOFRAY_FN void write_down(int i, const Form& form, Picked& out) {
 /// Calls run(cluster) for those that overlap the rectangle.
 template <class F, class Run>
 TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds& r, const Run& run) {
-  for (int first = 0; first < clusters.count; first += cluster_size) {
-    for (std::uint32_t near = overlaps<F>(clusters.of_clusters[first / cluster_size], r); near != 0; near &= near - 1)
-      run(first + __builtin_ctz(near));
+  const int groups = (clusters.count + cluster_size - 1) / cluster_size;
+  for (int above = 0; above < groups; above += cluster_size) {
+    for (std::uint32_t those = overlaps<F>(clusters.of_groups()[above / cluster_size], r); those != 0; those &= those - 1) {
+      const int group = above + __builtin_ctz(those);
+      for (std::uint32_t near = overlaps<F>(clusters.of_clusters[group], r); near != 0; near &= near - 1)
+        run(group * cluster_size + __builtin_ctz(near));
+    }
   }
 }
 
-/// Marks the bodies of the clusters.
+/// Marks what is in the clusters, by its number.
+/// @param numbers  [cluster][32] the bodies, or their ranks
 template <class F>
-TOFRAY_FN void mark_all(const scene::Clusters& clusters, const scene::Bounds& r, const Marks& marks) {
+TOFRAY_FN void mark_all(const scene::Clusters& clusters, const std::int32_t* numbers, const scene::Bounds& r, const Marks& marks) {
   each_cluster<F>(
       clusters, r, [&](int cluster) __attribute__((always_inline)) {
-        const std::int32_t* bodies = clusters.bodies + cluster * cluster_size;
+        const std::int32_t* its = numbers + cluster * cluster_size;
         for (std::uint32_t left = overlaps<F>(clusters.of_bodies[cluster], r); left != 0; left &= left - 1)
-          marks.mark(bodies[__builtin_ctz(left)]);
+          marks.mark(its[__builtin_ctz(left)]);
       });
 }
 
-/// To narrow a list takes a pack about as long as to test as many forms.
-constexpr int few_forms = 12;
+TOFRAY_FN void put_in_order(Picked& few) {
+  for (int i = 1; i < few.count; ++i) {
+    const std::int32_t one = few.index[i];
+    int at = i;
+    for (; at > 0 && few.index[at - 1] > one; --at) few.index[at] = few.index[at - 1];
+    few.index[at] = one;
+  }
+}
+
+/// Of forms that have clusters those that the rectangle holds: few of them in their order, many with the nearest first, for squares.
+/// (Each form itself is not asked: it lies elsewhere in memory, and its squares ask for its rectangle once more.)
+template <class F, class From, class FormsOf>
+TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
+  const scene::Clusters& clusters = forms.clusters;
+  const std::int32_t* const order = clusters.order();
+  marks.clear(forms.count);
+  mark_all<F>(clusters, clusters.ranks(), r, marks);
+  Picked out = to.picked;
+  marks.each(
+      forms.count, [&](int rank) __attribute__((always_inline)) {
+        const std::int32_t place = order[rank], from = place % cluster_size, at = out.count % cluster_size;
+        const ManyBounds& its = clusters.of_bodies[place / cluster_size];
+        ManyBounds& many = out.bounds[out.count / cluster_size];
+        const std::int32_t body = clusters.bodies[place];
+        for (std::size_t i = 0; i < sizeof forms.at[0]; i += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + i);
+        out.index[out.count++] = body;
+        many.x_min[at] = its.x_min[from], many.x_max[at] = its.x_max[from];
+        many.y_min[at] = its.y_min[from], many.y_max[at] = its.y_max[from], many.near[at] = its.near[from];
+      });
+  if (out.count > From::few) {
+    to.in_squares = out.count, out.count = 0;
+  } else {
+    put_in_order(out);
+  }
+  to.picked = out;
+}
+
+/// … on the screen of parallel light: the points of a tile are at many depths, and the rectangle that holds them there holds much that is
+/// before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
+template <class F>
+TOFRAY_FN bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
+  bool any = false;
+  each_cluster<F>(
+      clusters, r, [&](int) __attribute__((always_inline)) { any = true; });
+  return any;
+}
+
+/// Of forms that have clusters. Apart: where there are few, nothing is to be paid for it.
+/// @param to  picked: its lists, empty
+template <class F, class From, class FormsOf>
+TOFRAY_APART void pick_of_many(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
+  if constexpr (!shape::has_beams<F>) {
+    marks.clear(forms.count);
+    mark_all<F>(forms.clusters, forms.clusters.bodies, r, marks);
+    marks.each(
+        forms.count, [&](int i) __attribute__((always_inline)) {
+          if (From::meets(forms.at[i], r)) write_down(i, forms.at[i], to.picked);
+        });
+  } else if constexpr (From::in_depth) {
+    pick_nearest<F>(forms, r, marks, to);
+  } else {
+    to.in_squares = any_on_screen<F>(forms.clusters, r) ? forms.count : 0;
+  }
+}
 
 template <class F, class From, class FormsOf>
-TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, Marks marks, From& picked) {
-  picked.forms = forms.at, picked.picked = {};
+TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, const Marks& marks, From& picked) {
+  picked.forms = forms.at, picked.picked = {}, picked.in_squares = 0;
   if (forms.count == 0) return false;
   Picked out{r == nullptr ? forms.count : 0, r == nullptr, reinterpret_cast<std::int32_t*>(room), nullptr};
   if (r != nullptr) {
     const int padded = (forms.count + cluster_size - 1) / cluster_size * cluster_size;
     out.bounds = reinterpret_cast<ManyBounds*>(out.index + padded);
     room += list_bytes(forms.count);
-    const auto look = [&](int i) __attribute__((always_inline)) {
-      if (From::meets(forms.at[i], *r)) write_down(i, forms.at[i], out);
-    };
-    if (forms.clusters.count == 0) {
-      for (int i = 0; i < forms.count; ++i) look(i);
-    } else {
-      marks.clear(forms.count);
-      mark_all<F>(forms.clusters, *r, marks);
-      marks.each(forms.count, look);
+    if (forms.clusters.count > 0) {
+      picked.picked = out;
+      pick_of_many<F>(forms, *r, marks, picked);
+      return picked.picked.count > few_forms;
     }
+    for (int i = 0; i < forms.count; ++i)
+      if (From::meets(forms.at[i], *r)) write_down(i, forms.at[i], out);
   }
   picked.picked = out;
   return !out.everything && out.count > few_forms;
@@ -223,6 +298,7 @@ TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bou
   unsigned char* room = out.room;
   out.many = false;
   ((out.many = pick<F>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
+  out.by_squares = (out.template of<T>().in_squares | ...) != 0;
 }
 
 /// For rays d = (x, y, 1) with (x, y) in `rectangle`, or on the screen of parallel light; a null pointer keeps everything.

@@ -106,6 +106,56 @@ TEST(many_objects, twins_show_the_first_of_them) {
   EXPECT_GT(seen, 200);
 }
 
+// Instances of one mesh and bodies that touch, share faces and stand in each other, some of them twice at one place: tiles look for these
+// square by square, the nearest first, which must not show. In the sun, and before lights that are elsewhere.
+TEST(many_objects, that_touch_and_overlap_are_met_as_one_after_the_other) {
+  Random random(86);
+  for (const bool moving : {false, true}) {
+    Scene scene;
+    scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}, {"dark", Material::Brdf::lambert, 0.2, 0, 1}};
+    const auto rock = shared(single(stone(random, 2, 0.1, {0, 0, 0})));
+    const int side = with_sanitizers ? 6 : 12;
+    for (int i = 0; i < side * side * 6; ++i) {
+      const Vec3 at{0.12 * (i % side - 0.5 * side), 0.12 * (i / side % side - 0.5 * side),
+                    1.2 + 0.1 * static_cast<double>(i / (side * side))};
+      Object out;
+      switch (random.below(4)) {
+        case 0: out = object(Sphere{at, 0.06}); break;                                               // touches its neighbours
+        case 1: out = object(Box{at - Vec3{0.06, 0.06, 0.05}, at + Vec3{0.06, 0.06, 0.05}}); break;  // shares faces with them
+        default:
+          out.shape = rock, out.position = at;
+          if (random.below(2) == 0) out.rotation = {random.direction(), random.between(-3, 3)};
+      }
+      if (moving && random.below(2) == 0) out.velocity_m_per_s = random.point(1);
+      scene.objects.push_back(out);
+      if (random.below(4) == 0) scene.objects.push_back(out), scene.objects.back().material = 1;  // a twin
+    }
+    scene.ambient.spectrum = Ambient::Spectrum::sun_am15;
+    scene.ambient.amount = 0.5, scene.ambient.direction = Vec3{0.3, 0.5, 1};
+    EXPECT_GT(expect_same_without_culling(scene, small_camera(2, random)), 200);
+  }
+}
+
+// Where a light sees few forms of a tile, packs look for them; once something passes close before the camera it sees many, and squares do.
+// What does not change meanwhile is in their shade as before.
+TEST(many_objects, of_which_a_light_sees_more_while_something_passes) {
+  Random random(87);
+  for (int trial = 0; trial < 8; ++trial) {
+    Scene scene;
+    scene.materials = {{"matt", Material::Brdf::lambert, 0.7, 0, 1}};
+    scene.objects.push_back(object(Plane{{0, 0, 4}, Vec3{0, 0, -1}}));
+    for (int i = 0; i < 40 + 10 * (trial % 4); ++i) {
+      const double z = random.between(1.5, 3.5);
+      scene.objects.push_back(
+          object(Sphere{Vec3{random.between(-0.7, 0.7) * z, random.between(-0.4, 0.4) * z, z}, random.between(0.05, 0.15)}));
+    }
+    Object passing = object(Rectangle{{random.between(-0.3, 0.1), random.between(-0.15, 0.15), 0.5}, {0.15, 0.1}});
+    passing.velocity_m_per_s = {random.between(2, 10), random.between(-1, 1), 0};
+    scene.objects.push_back(passing);
+    EXPECT_GT(expect_same_without_culling(scene, small_camera(3, random)), 20);
+  }
+}
+
 // As many as a scene may have, of which one tile holds more than any list had room for.
 TEST(many_objects, in_one_tile_as_many_as_there_may_be) {
   Random random(84);

@@ -36,6 +36,9 @@ class Culler {
     trace::narrow<float>(alongs, from, at, out);
     return out;
   }
+  [[nodiscard]] const trace::Marks& marks() const { return marks_; }
+  /// The first room.
+  unsigned char* room() { return reinterpret_cast<unsigned char*>(first_.data()); }
 
  private:
   explicit Culler(const scene::Bodies& bodies)
