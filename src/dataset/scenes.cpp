@@ -7,7 +7,6 @@
 
 #include "base/faults.h"
 #include "dataset/accept.h"
-#include "load/controls.h"
 #include "load/load.h"
 #include "load/trees.h"
 #include "model/form.h"

@@ -31,7 +31,7 @@ struct LineNoise {
     const double column = camera.pixel.column_noise_e, row = camera.pixel.row_noise_e;
     return column * column + row * row;
   }
-  /// The same of a view [e²].
+  /// Variance of A−B by column and row noise [e²], out of a view, whose numbers are codes.
   template <class Sensor>
   static double variance_as_set(const Sensor& s) {
     const double step = static_cast<double>(s.step), column = static_cast<double>(s.column_noise), row = static_cast<double>(s.row_noise);

@@ -19,7 +19,7 @@ struct RawFrameView {
   float dark;               ///< dark electrons of a tap
   Gate gate_kind;
   const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
-  /// The same for another camera's light, times its share of the own, or null: there is none.                [theory: eq. 3.24]
+  /// Gate for another camera's light, times its share of the own; null: there is no other camera.            [theory: eq. 3.24]
   const float* other;
   float other_light;  ///< its share of the own
 };

@@ -40,7 +40,7 @@ struct TrajectoryTimes {
 std::vector<TimedPose> parse_trajectory(std::string_view text, const std::string& path, const TrajectoryTimes& times,
                                         std::optional<Stamp>& clock, base::Faults& faults);
 
-/// The same of lines that come one after the other; a header may come first.
+/// Poses of such a text whose lines come one after the other; a header may come first.
 class TrajectoryLines {
  public:
   explicit TrajectoryLines(const std::string& path);

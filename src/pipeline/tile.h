@@ -266,7 +266,7 @@ class TileWalk {
       still_is_shaded_ = true;
     }
   }
-  /// … and of what is seen at a moment; and what they keep from it that move.
+  /// What meshes, and what there is much of, keep from the lights of what is seen at a moment: those that stand still, and those that move.
   TOFRAY_FN void shade_what_is_seen(int moment) {
     if constexpr (shape::has_beams<F>) {
       Near<can_move>& near = scratch_.near;

@@ -124,7 +124,7 @@ template <class T>
 TOFRAY_FN float begins_at(const T&, const Vec&) {
   return -3e38f;
 }
-/// … nor does it keep light from the direction s off what is there: by −P·s.
+/// The shape keeps light from the direction s off no point P whose −P·s is below this.
 template <class T>
 TOFRAY_FN float begins_along(const T&, const Vec&) {
   return -3e38f;
