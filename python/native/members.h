@@ -146,7 +146,7 @@ constexpr auto address_of_member() {
 #endif
 
 /// "… {(& nowhere<tofray::Pixel>.…::record.tofray::Pixel::read_noise_e)} …", "… {&nowhere.record.read_noise_e}]"
-template <auto Address>
+template <auto At>
 constexpr std::string_view name_at() {
   constexpr std::string_view all = __PRETTY_FUNCTION__;
   constexpr std::size_t brace = all.rfind('}');
