@@ -30,12 +30,12 @@ struct ObjectInView {
 /// Where an object is at one time. Its own frame has the world's axes before it turns, and its zero is what it turns about: of a sphere its
 /// centre, of a mesh the file's zero. What is at P there is at rotation·P + position in the world.
 struct ObjectPlace {
-  std::string name;        ///< Object::name
-  std::string class_name;  ///< Object::class_name
-  Vec3 position{};         ///< in the world [m]
-  Quaternion rotation{0, 0, 0, 1};
-  bool endless = false;  ///< a plane
-  Vec3 low{}, high{};    ///< its box in the world [m]; of a plane −inf and inf
+  std::string name;                 ///< Object::name
+  std::string class_name;           ///< Object::class_name
+  Vec3 position{};                  ///< in the world [m]
+  Quaternion rotation{0, 0, 0, 1};  ///< from its own frame's axes to the world's [1]
+  bool endless = false;             ///< a plane
+  Vec3 low{}, high{};               ///< its box in the world [m]; of a plane −inf and inf
 };
 /// Of each of Scene::objects.
 /// @param time_s  of the scene, as Truth::time_s says it

@@ -12,8 +12,8 @@ namespace tofray {
 
 /// A function of one variable given by samples; a not-a-knot cubic spline goes through them, limited so that it turns only at samples.
 struct Curve {
-  std::vector<double> x;  ///< ascending
-  std::vector<double> y;
+  std::vector<double> x;  ///< ascending [any unit]
+  std::vector<double> y;  ///< one for each [any unit]
   bool operator==(const Curve&) const = default;
 };
 
@@ -173,8 +173,8 @@ struct Pixel {
 struct Adc {
   int bits = 12;
   double step_e_per_dn = 1;  ///< s
-  double mid_code = 2048;
-  int valid_min = 0;  ///< codes outside valid_min…valid_max flag the pixel as saturated
+  double mid_code = 2048;    ///< 2^(bits − 1) is the middle [DN]
+  int valid_min = 0;         ///< codes outside valid_min…valid_max flag the pixel as saturated
   int valid_max = 4095;
   std::vector<double> gains = {};  ///< what modes may choose from; the step of a mode is step_e_per_dn over its gain
 };

@@ -63,7 +63,7 @@ struct RanOn {
   std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or "neon"
   int threads = 0;              ///< of the processor
   int block_size = 0;           ///< threads per block of the kernel from ray to depth; 0 where the processor computed
-  double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1
+  double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1 [1]
   std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
 };
 

@@ -43,19 +43,19 @@ struct ChainRawFrame {
 struct ChainPhase {
   double modulation_frequency_hz = 0;
   double amplitude_e = 0;       ///< |Z|                                                  [theory: eq. 4.2]
-  double measured_turns = 0;    ///< arg Z / 2 pi, with the wiggling in it
-  double calibrated_turns = 0;  ///< with the wiggling and the pixel's delay taken out    [eq. 4.3]
+  double measured_turns = 0;    ///< arg Z / 2 pi, with the wiggling in it [turns]
+  double calibrated_turns = 0;  ///< with the wiggling and the pixel's delay taken out [turns]    [eq. 4.3]
   double half_wave_m = 0;       ///< R, the unambiguous half path                         [eq. 4.4]
-  double cycles = 0;            ///< whole cycles that unwrapping added
+  double cycles = 0;            ///< whole cycles that unwrapping added [1]
   double half_path_m = 0;       ///< R (cycles + turns)
   double noise_e = 0;           ///< 1 sigma of each part of Z, as the camera estimates it       [eq. 4.9]
 };
 
 /// One way to unwrap: a cycle of the modulation frequency with the fewest, and of each other one the half path nearest to it.
 struct UnwrapCandidate {
-  std::vector<double> cycles;  ///< whole cycles of each of the chain's phases
+  std::vector<double> cycles;  ///< whole cycles of each of the chain's phases [1]
   double range_m = 0;          ///< that they mean                                         [theory: eq. 4.7, 4.8]
-  double cost_m2 = 0;          ///< sum of the squares of how far the other half paths are off [eq. 4.6]
+  double cost_m2 = 0;          ///< sum of the squares of how far the other half paths are off [m2] [eq. 4.6]
   bool chosen = false;         ///< its cost is the least: what unwrapping takes
 };
 
@@ -64,16 +64,22 @@ struct PixelChain {
   int u = 0, v = 0;
   // ground truth
   std::int64_t object = -1;
-  double true_range_m = 0, true_z_m = 0, reflectivity = 0, incidence_rad = 0;
-  double object_share = 0, mixed = 0;  ///< of samples within the pixel
-  std::array<double, 3> position_m{}, normal{};
-  double irradiance_w_m2 = 0, radiance_w_m2_sr = 0, power_w = 0;
+  double true_range_m = 0, true_z_m = 0;
+  double reflectivity = 0;  ///< of the surface [1]
+  double incidence_rad = 0;
+  double object_share = 0, mixed = 0;  ///< of samples within the pixel [1]
+  std::array<double, 3> position_m{};
+  std::array<double, 3> normal{};  ///< of unit length [1]
+  double irradiance_w_m2 = 0;      ///< on the surface [W/m2]
+  double radiance_w_m2_sr = 0;     ///< back from it [W/(m2 sr)]
+  double power_w = 0;              ///< on the pixel
   // measured
   std::vector<ChainRawFrame> raw_frames;
   std::vector<ChainPhase> phases;  ///< one for each modulation frequency
   /// Of all cycles, by cost, the one chosen first; empty where there is one modulation frequency, no phase or no camera.
   std::vector<UnwrapCandidate> candidates;
-  double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0, confidence = 0;
+  double range_m = 0, z_m = 0, noise_m = 0, noise_threshold_m = 0, amplitude_e = 0, ambient_e = 0;
+  double confidence = 0;  ///< 0 to 255 [1]
   std::array<double, 3> point_m{};
   int flags = 0;  ///< bits of Flag
 };
@@ -101,7 +107,7 @@ std::vector<std::vector<double>> correlation_curves(const PixelChain& chain, con
 /// Light that came by way of 1 + b surfaces, b = first … last.
 struct BounceShare {
   int first = 0, last = 0;
-  double share = 0;                 ///< of the electrons of all lit raw frames, 0 … 1
+  double share = 0;                 ///< of the electrons of all lit raw frames, 0 … 1 [1]
   std::vector<double> electrons;    ///< by raw frame, before the lens scatters them [e]
   std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]  [theory: eq. 7.8]
 };

@@ -21,7 +21,7 @@ struct Pinhole {
   int width = 0, height = 0;  ///< of the picture, pixels; row 0 is the topmost
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   /// Where the middle of the first pixel is: 0.5 where numbers count from the picture's corner, as OpenGL, Blender, Open3D and most simulators
-  /// have it; 0 where they count from that middle, as OpenCV, ROS and tofray's lenses do.
+  /// have it; 0 where they count from that middle, as OpenCV, ROS and tofray's lenses do [px].
   double pixel_centre = 0.5;
 };
 

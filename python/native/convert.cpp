@@ -39,8 +39,16 @@ py::object new_object(const char* name) {
   return type.attr("__new__")(type);
 }
 
-void set_member(const py::object& object, std::string_view name, const py::object& value) {
-  py::setattr(object, py::str(name.data(), name.size()), value);
+py::handle held_name(std::string_view name) { return PyUnicode_InternFromString(std::string(name).c_str()); }
+
+void check_class(py::handle value, const char* name, const Place& place) {
+  if (!py::isinstance(value, model_class(name))) refuse(place, value, std::string("a tofray.") + name);
+}
+
+py::object member_of(py::handle value, py::handle name, const Place& place) {
+  py::object member = py::getattr(value, name, py::object());
+  if (!member) throw Error(ErrorKind::bad_input, place.text() + ": error: is not set");
+  return member;
 }
 
 py::object As<std::string>::out(const std::string& value) {

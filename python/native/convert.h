@@ -3,6 +3,7 @@
 #pragma once
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -13,7 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "fields.h"
+#include "members.h"
+#include "tofray/tofray.h"
 
 /// The public structs to objects of tofray._model and back. Python's objects are Python's own: none of them points into a C++ struct.
 namespace tofray::python {
@@ -35,7 +37,12 @@ std::string shown(py::handle value);
 py::handle model_class(const char* name);
 /// A new one whose members are not set.
 py::object new_object(const char* name);
-void set_member(const py::object& object, std::string_view name, const py::object& value);
+/// A name as Python has it, which lives as long as the interpreter.
+py::handle held_name(std::string_view name);
+/// @throws Error (bad_input) unless the value is of that class of tofray._model
+void check_class(py::handle value, const char* name, const Place& place);
+/// @throws Error (bad_input) where it is not set
+py::object member_of(py::handle value, py::handle name, const Place& place);
 
 std::string from_text(py::handle value, const Place& place);
 double from_number(py::handle value, const Place& place);
@@ -69,21 +76,31 @@ void from_python(py::handle value, T& into, const Place& place) {
 
 template <Record T>
 struct As<T> {
-  static std::string type() { return Fields<T>::name; }
+  static std::string type() { return record_name<T>(); }
   static py::object out(const T& value) {
-    py::object object = new_object(Fields<T>::name);
-    Fields<T>::each([&](std::string_view name, auto member) { set_member(object, name, to_python(value.*member)); });
+    py::object object = new_object(record_name<T>().c_str());
+    const py::handle* name = names().data();
+    each_member(value, [&](std::string_view, const auto& member) { py::setattr(object, *name++, to_python(member)); });
     return object;
   }
   static void in(py::handle value, T& into, const Place& place) {
-    if (!py::isinstance(value, model_class(Fields<T>::name))) refuse(place, value, std::string("a tofray.") + Fields<T>::name);
-    Fields<T>::each([&](std::string_view name, auto member) {
-      const std::string key(name);
-      const Place here{&place, "." + key};
-      const py::object held = py::getattr(value, key.c_str(), py::object());
-      if (!held) throw Error(ErrorKind::bad_input, here.text() + ": error: is not set");
-      from_python(held, into.*member, here);
+    check_class(value, record_name<T>().c_str(), place);
+    const py::handle* held = names().data();
+    each_member(into, [&](std::string_view name, auto& member) {
+      const Place here{&place, "." + std::string(name)};
+      from_python(member_of(value, *held++, here), member, here);
     });
+  }
+
+ private:
+  /// Names of its members as Python has them. (A static that other threads may wait for: making texts lets none of them run.)
+  static const auto& names() {
+    static const auto all = [] {
+      std::array<py::handle, member_count<T>> out;
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = held_name(member_names<T>[i]);
+      return out;
+    }();
+    return all;
   }
 };
 
@@ -224,7 +241,7 @@ struct As<std::variant<T...>> {
   }
   static void in(py::handle value, std::variant<T...>& into, const Place& place) {
     const auto take = [&]<class One>(One*) {
-      if (!py::isinstance(value, model_class(Fields<One>::name))) return false;
+      if (!py::isinstance(value, model_class(record_name<One>().c_str()))) return false;
       from_python(value, into.template emplace<One>(), place);
       return true;
     };

@@ -201,19 +201,28 @@ py::object picture(const py::object& frame, const std::string& what, const std::
   return py::bytes(freely([&] { return picture_bytes(*one, what, caption, style); }));
 }
 
+/// The structs that Python sees as classes of its own: those that a user makes or gets, and what they are made of.
+using Records = WithParts<Camera, Scene, RanOn, PlanStep, Pinhole, PlacedObject, FrameRequest, ObjectPlace, SceneReport, InvalidPixels,
+                          CameraQuestion, CameraReport, PixelChain, PixelBounces, Validity, Inputs, RunResult>;
+
+/// Calls with a null pointer of each of them.
+template <class Call>
+void each_record(const Call& call) {
+  [&]<class... T>(Types<T...>) { (call(static_cast<T*>(nullptr)), ...); }(Records{});
+}
+
 /// Name, members with type and value of a fresh one, for each struct: tofray._model is written from it.
 py::list structs() {
   py::list all;
   each_record([&]<class T>(T*) {
     py::list members;
     const T fresh{};
-    Fields<T>::each([&](std::string_view name, auto member) {
-      using Member = std::remove_cvref_t<decltype(fresh.*member)>;
+    each_member(fresh, [&]<class Member>(std::string_view name, const Member& member) {
       py::object value = py::none();
-      if constexpr (!Record<Member> && !std::is_same_v<Member, decltype(Object::shape)>) value = to_python(fresh.*member);
+      if constexpr (!Record<Member> && !std::is_same_v<Member, decltype(Object::shape)>) value = to_python(member);
       members.append(py::make_tuple(std::string(name), As<Member>::type(), value));
     });
-    all.append(py::make_tuple(Fields<T>::name, members));
+    all.append(py::make_tuple(record_name<T>(), members));
   });
   return all;
 }
@@ -222,7 +231,7 @@ py::list structs() {
 py::object fresh(const std::string& wanted) {
   py::object out = py::none();
   each_record([&]<class T>(T*) {
-    if (wanted == Fields<T>::name) out = to_python(T{});
+    if (wanted == record_name<T>()) out = to_python(T{});
   });
   return out;
 }
@@ -230,9 +239,9 @@ py::object fresh(const std::string& wanted) {
 py::object round_trip(const py::object& value) {
   py::object out = py::none();
   each_record([&]<class T>(T*) {
-    if (!py::type::of(value).is(model_class(Fields<T>::name))) return;
+    if (!py::type::of(value).is(model_class(record_name<T>().c_str()))) return;
     T one{};
-    from_python(value, one, {nullptr, Fields<T>::name});
+    from_python(value, one, {nullptr, record_name<T>()});
     out = to_python(one);
   });
   return out;
@@ -250,9 +259,8 @@ py::dict flags() {
 py::list options() {
   py::list out;
   const SimulatorOptions fresh_options{};
-  Fields<SimulatorOptions>::each([&](std::string_view name, auto member) {
-    using Member = std::remove_cvref_t<decltype(fresh_options.*member)>;
-    if (name != "progress") out.append(py::make_tuple(std::string(name), As<Member>::type(), to_python(fresh_options.*member)));
+  each_member(fresh_options, [&]<class Member>(std::string_view name, const Member& member) {
+    if (name != "progress") out.append(py::make_tuple(std::string(name), As<Member>::type(), to_python(member)));
   });
   return out;
 }

@@ -410,12 +410,12 @@ SimulatorOptions options_from_python(const py::dict& words) {
     const std::string word = from_text(entry.first, {nullptr, "option"});
     bool known = false;
     std::string all;
-    Fields<SimulatorOptions>::each([&](std::string_view name, auto member) {
-      if (name == "progress") return;
+    each_member(options, [&](std::string_view name, auto& member) {
+      if (name == "progress") return;  // Simulator.progress in Python
       all += (all.empty() ? "" : ", ") + std::string(name);
       if (name != word) return;
       known = true;
-      from_python(value, options.*member, Place{nullptr, word});
+      from_python(value, member, Place{nullptr, word});
     });
     if (!known) throw Error(ErrorKind::bad_input, "Simulator: error: there is no option " + word + "\n  expected some of " + all);
   }

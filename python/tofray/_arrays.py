@@ -73,7 +73,7 @@ class Depth(Part):
     range_m : float32 array [height, width], m
         Along the pixel's ray.
     points_m : float32 array [height, width, 3], m
-        X, y, z of the surface point.
+        x, y, z of the surface point.
     amplitude_e : float32 array [height, width], e
         Mean of the modulation frequencies' amplitudes.
     ambient_e : float32 array [height, width], e
@@ -135,23 +135,23 @@ class Truth(Part):
     reflectivity : float32 array [height, width], 1
         Albedo (Phong: diffuse + specular).
     position_m : float32 array [height, width, 3], m
-        X, y, z of the surface point.
+        x, y, z of the surface point.
     normal : float32 array [height, width, 3], 1
         Unit normal, toward the camera.
     object_id : int32 array [height, width], 1
-        Instance: index in Scene::objects, or -1.
+        instance: index in Scene::objects, or -1.
     material_id : int32 array [height, width], 1
         Index in Scene::materials, or -1.
     class_id : int32 array [height, width], 1
         Class of the object: index in Scene::classes, or -1; asked.
     triangle_id : int32 array [height, width], 1
-        Face: index in mesh triangles, or -1.
+        face: index in mesh triangles, or -1.
     texcoord : float32 array [height, width, 2], 1
-        U, v of TriangleMesh::texcoords, v down the picture, or NaN.
+        u, v of TriangleMesh::texcoords, v down the picture, or NaN.
     velocity_m_per_s : float32 array [height, width, 3], m/s
         Scene flow: of the point, camera frame.
     flow_px : float32 array [height, width, 2], px
-        U, v: optical flow to one frame later.
+        u, v: optical flow to one frame later.
     mixed : uint8 array [height, width], 1
         Several objects or > 5 cm of range; sub-pixel samples.
     object_share : float32 array [height, width], 1
@@ -175,7 +175,7 @@ class Truth(Part):
     raw_direct_dn : float32 array [phase, height, width], DN
         The same of light by one surface alone, before lens scatter; bounces, asked.
     phase_flow_px : float32 array [phase, height, width, 2], px
-        U, v: optical flow from each raw frame to gt_time_s; asked.
+        u, v: optical flow from each raw frame to gt_time_s; asked.
     multipath_m : float32 array [phase, height, width], m
         Half path of all - of direct light, NaN unlit; bounces.
     path_noise_m : float32 array [phase, height, width], m

@@ -16,41 +16,19 @@ if TYPE_CHECKING:
     from ._native import MeshMotion, ReflectivityMap, TriangleMesh, VectorMap
 
 
-class Curve(Record):
-    """A function of one variable given by samples; a not-a-knot cubic spline goes through them,
-    limited so that it turns only at samples.
-
-    Attributes
-    ----------
-    x : list[float], any unit
-        Ascending.
-    y : list[float], any unit
-    """
-    __slots__ = ("x", "y")
-    x: list[float]
-    y: list[float]
-
-    def __init__(
-        self,
-        *,
-        x: Sequence[float] = (),
-        y: Sequence[float] = (),
-    ) -> None:
-        self.x = list(x)
-        self.y = list(y)
-
-
 class PixelMask(Record):
     """Where within a pixel light is collected, for samples within it (SimulatorOptions::subpixel).
 
     Attributes
     ----------
     kind : Literal["square", "table"]
-        Square: evenly in a square of area fill_factor·pitch² in its middle.
+        square: evenly in a square of area fill_factor·pitch² in its middle.
     samples : list[float], 1
-        Table: of the whole pixel, rows from its top on, columns from its left on, any unit.
+        table: of the whole pixel, rows from its top on, any unit. From 0 to 1e12.
     columns : int
+        From 1 to 1024.
     rows : int
+        From 1 to 1024.
     """
     __slots__ = ("kind", "samples", "columns", "rows")
     kind: Literal["square", "table"]
@@ -78,13 +56,15 @@ class Sensor(Record):
     Attributes
     ----------
     width : int
-        Pixels.
+        Columns of pixels. From 1 to 16384.
     height : int
-        Pixels.
+        Rows of pixels. From 1 to 16384.
     pixel_pitch_m : float, m
+        From one pixel's middle to the next one's. From 5e-7 to 0.001.
     fill_factor : float, 1
-        0…1.
+        Share of the pixel's area that collects light. From 0.001 to 1.
     mask : PixelMask
+        Where within a pixel it is collected, for samples within it.
     """
     __slots__ = ("width", "height", "pixel_pitch_m", "fill_factor", "mask")
     width: int
@@ -109,6 +89,31 @@ class Sensor(Record):
         self.mask = PixelMask() if mask is None else mask
 
 
+class Curve(Record):
+    """A function of one variable given by samples; a not-a-knot cubic spline goes through them,
+    limited so that it turns only at samples.
+
+    Attributes
+    ----------
+    x : list[float], any unit
+        Ascending.
+    y : list[float], any unit
+        One for each.
+    """
+    __slots__ = ("x", "y")
+    x: list[float]
+    y: list[float]
+
+    def __init__(
+        self,
+        *,
+        x: Sequence[float] = (),
+        y: Sequence[float] = (),
+    ) -> None:
+        self.x = list(x)
+        self.y = list(y)
+
+
 class Scatter(Record):
     """Light that lens and filter scatter over the sensor before it is collected: (1 − share)·δ +
     share·K, ΣK = 1.
@@ -117,16 +122,19 @@ class Scatter(Record):
     ----------
     kind : Literal["none", "gaussians", "kernel"]
     share : float, 1
-        0…1 of the light that is scattered.
+        gaussians, kernel: of the light. From 0 to 1.
     sigma_px : list[float], px
-        Gaussians: width of each.
+        gaussians: width of each Gaussian. From 0.1 to 10000.
     weights : list[float], 1
-        Gaussians: how much of it each takes, any unit; empty: all alike.
+        gaussians: how much of it each Gaussian takes, any unit; in files all alike unless given.
+        gaussians: how much of it each takes, any unit; empty: all alike. From 0 to 1e12.
     kernel : list[float], 1
-        Kernel: how much goes where, rows from above on, columns from the left on; odd numbers of
-        both, any unit. The middle is the pixel itself.
+        kernel: how much of it goes where, any unit: rows from above on, odd in number as the
+        columns; the middle is the pixel itself. From 0 to 1e12.
     columns : int
+        From 1 to 255.
     rows : int
+        From 1 to 255.
     """
     __slots__ = ("kind", "share", "sigma_px", "weights", "kernel", "columns", "rows")
     kind: Literal["none", "gaussians", "kernel"]
@@ -163,25 +171,44 @@ class Lens(Record):
     Attributes
     ----------
     fx_px : float, px
+        Focal length over pixel pitch, along a row. From 1 to 1e6.
     fy_px : float, px
+        Focal length over pixel pitch, along a column. From 1 to 1e6.
     cx_px : float, px
+        Principal point, its column; the middle of pixel (0, 0) is at (0, 0). From -100000 to
+        100000.
     cy_px : float, px
+        Principal point, its row; the middle of pixel (0, 0) is at (0, 0). From -100000 to 100000.
     distortion : Literal["brown_conrady", "fisheye"]
+        As in OpenCV: brown_conrady: k1 to k6, p1 and p2, rational from k4 on; fisheye: k1 to k4
+        over the angle to the axis.
     k1 : float, 1
+        As in OpenCV: radial, r^2; fisheye: angle^2. From -1000 to 1000.
     k2 : float, 1
+        As in OpenCV: radial, r^4; fisheye: angle^4. From -1000 to 1000.
     p1 : float, 1
+        brown_conrady: as in OpenCV: tangential distortion, first. From -1000 to 1000.
     p2 : float, 1
+        brown_conrady: as in OpenCV: tangential distortion, second. From -1000 to 1000.
     k3 : float, 1
+        As in OpenCV: radial, r^6; fisheye: angle^6. From -1000 to 1000.
     k4 : float, 1
+        As in OpenCV: radial, r^2 below the line; fisheye: angle^8. From -1000 to 1000.
     k5 : float, 1
+        brown_conrady: as in OpenCV: radial, r^4 below the line. From -1000 to 1000.
     k6 : float, 1
+        brown_conrady: as in OpenCV: radial, r^6 below the line. From -1000 to 1000.
     f_number : float, 1
+        N: focal length over the diameter of the entrance pupil. From 0.3 to 100.
     transmission : float, 1
-        T, 0…1, lens and filter at the illumination wavelength.
+        Of lens and filter at the illumination wavelength. From 0 to 1.
     vignetting : Literal["cos4", "off", "table"]
+        Fall-off toward the corners: cos4, off, or a table over the angle to the axis.
     vignetting_table : Curve
-        Angle to the optical axis [rad] → factor.
+        Angle to the optical axis [rad] → factor. x: angle from 0 to 1.5708 rad, y: factor from 0 to
+        2.
     scatter : Scatter
+        Light that lens and filter scatter over the sensor.
     """
     __slots__ = ("fx_px", "fy_px", "cx_px", "cy_px", "distortion", "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "f_number",
                  "transmission", "vignetting", "vignetting_table", "scatter")
@@ -253,11 +280,14 @@ class Filter(Record):
     Attributes
     ----------
     center_m : float, m
+        In files the illumination wavelength of the first light unless given. From 1e-7 to 2e-5.
     half_width_m : float, m
-        Passes centre ± half width, transmission `peak`.
+        Passes center - half_width_m to center + half_width_m. From 1e-10 to 1e-5.
     peak : float, 1
+        Transmission of the filter in its pass band. From 0 to 1.
     table : Curve
-        Wavelength [m] → transmission; takes the place of the above where not empty.
+        A table in place of center, half_width_m and peak. x: wavelength from 1e-7 to 2e-5 m, y:
+        transmission from 0 to 1.
     """
     __slots__ = ("center_m", "half_width_m", "peak", "table")
     center_m: float
@@ -279,6 +309,45 @@ class Filter(Record):
         self.table = Curve() if table is None else table
 
 
+class Area(Record):
+    """Where the light of a source comes out: at a point, or evenly all over a disk or rectangle across
+    its axis. So many points at fixed places stand for that, in equal shares (theory 2.1).
+
+    Attributes
+    ----------
+    kind : Literal["none", "disk", "rectangle"]
+    radius_m : float, m
+        disk: of the disk, across the axis. From 1e-6 to 10.
+    width_m : float, m
+        rectangle: toward the camera's x; of an axis along x: its y. From 1e-6 to 10.
+    height_m : float, m
+        rectangle: across that and the axis. From 1e-6 to 10.
+    points : int
+        disk, rectangle: that stand for it; each costs as much as a light source. From 1 to 64.
+    """
+    __slots__ = ("kind", "radius_m", "width_m", "height_m", "points")
+    kind: Literal["none", "disk", "rectangle"]
+    radius_m: float
+    width_m: float
+    height_m: float
+    points: int
+
+    def __init__(
+        self,
+        *,
+        kind: Literal["none", "disk", "rectangle"] = 'none',
+        radius_m: float = 0.0,
+        width_m: float = 0.0,
+        height_m: float = 0.0,
+        points: int = 16,
+    ) -> None:
+        self.kind = kind
+        self.radius_m = radius_m
+        self.width_m = width_m
+        self.height_m = height_m
+        self.points = points
+
+
 class Pattern(Record):
     """How light of one source is spread over directions; integral over the sphere is 1 (theory 2.1).
 
@@ -286,28 +355,28 @@ class Pattern(Record):
     ----------
     kind : Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
     half_angle_rad : float, rad
-        Cone.
+        cone: uniform up to this angle to the axis. From 0.001 to 3.14159.
     exponent : float, 1
-        Cosine_lobe: cos^exponent.
+        cosine_lobe: n of cos^n. From 0 to 10000.
     width_rad : float, rad
-        Flat_top: full width across θx at half its peak.
+        flat_top: full width across x at half the peak. From 0.001 to 6.28319.
     height_rad : float, rad
-        Flat_top: across θy.
+        flat_top: full width across y at half the peak. From 0.001 to 6.28319.
     columns : int
-        Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
-        the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
-        × 168.
+        flat_top: cells of the table it stands for. From 2 to 4096.
     rows : int
-        Table: samples over θx (columns) and θy (rows), cell centres on a regular grid centred on
-        the axis, f-theta. Of a flat top, only the paper's printed formula reads such a grid; 0: 172
-        × 168.
+        flat_top: cells of the table it stands for. From 2 to 4096.
     half_range_x_rad : float, rad
-        The grid covers ±this across its columns (edges of the outer cells); beyond, the light is
-        dark. Of a flat top, 0 takes its width, where the light has fallen to nothing (2⁻²⁵⁶).
+        flat_top: zero beyond +- this; in files the width unless given. table: the table covers +-
+        this across its columns. The grid covers ±this across its columns (edges of the outer
+        cells); beyond, the light is dark. Of a flat top, 0 takes its width, where the light has
+        fallen to nothing (2⁻²⁵⁶). From 0.001 to 6.28319.
     half_range_y_rad : float, rad
-        The same across its rows; 0: the height.
+        flat_top: zero beyond +- this; in files the height unless given. table: the table covers +-
+        this across its rows. The same across its rows; 0: the height. From 0.001 to 6.28319.
     samples : list[float], 1
-        [rows][columns], any unit.
+        table: rows (from -half_range_y_rad on) of samples (from -half_range_x_rad on), any unit.
+        From 0 to 1e12.
     """
     __slots__ = ("kind", "half_angle_rad", "exponent", "width_rad", "height_rad", "columns", "rows", "half_range_x_rad",
                  "half_range_y_rad", "samples")
@@ -355,30 +424,34 @@ class Waveform(Record):
     ----------
     kind : Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
     duty : float, 1
-        Width at half height over the period.
+        rectangular, trapezoid: width at half height over the period. From 0.001 to 0.999.
     rise_time_s : float, s
-        Linear edge, 0 to 100 %; of a rectangular pulse both.
+        rectangular, trapezoid: linear edge, 0 to 100 %. From 0 to 0.001.
     bandwidth_hz : float, Hz
-        The light source's own single pole; 0: none.
+        rectangular, sine, trapezoid, gaussian, emission: single pole of the light source; 0: none.
+        From 0 to 1e12.
     jitter_s : float, s
-        Gaussian, 1 sigma.
+        rectangular, sine, trapezoid, gaussian, emission: Gaussian jitter of the light's edges, 1
+        sigma. From 0 to 1e-6.
     harmonics : int
-        How many odd harmonics are kept (1,3,5,7); a sine has one.
+        rectangular, measured, trapezoid, gaussian, emission: how many odd harmonics are kept: 1, 3,
+        5, 7 …. From 1 to 8.
     modulation_depth : float, 1
-        Sine: d of the light 1 + d·cos; it has no duty and no edges.
+        sine: d of the light 1 + d cos. From 0.001 to 1.
     correlation : list[float], 1
-        Measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier
-        transform gives a_m, ψ_m.
+        measured: (A-B)/(A+B) at reference phases over one period, light and pixel at no distance.
+        From -10 to 10.
     fall_time_s : float, s
-        Trapezoid: the other edge.
+        trapezoid: the edge at the pulse's end. From 0 to 0.001.
     sigma_s : float, s
-        Gaussian: width of the pulse, 1 sigma.
+        gaussian: width of the pulse, 1 sigma. From 0 to 0.001.
     emission : list[float], 1
-        Emission: the light itself over one period, any unit, from the middle of what would be a
-        rectangular pulse on.
+        emission: the light over one period, any unit, from the middle of the pulse on. From 0 to
+        1e12.
     sample_phases_rad : list[float], rad
-        Measured, emission: at which phases of the period the samples are, ascending within one
-        turn; empty: equally spaced from 0 on.
+        measured, emission: where in the period the samples are, ascending; in files equally spaced
+        from 0 unless given. Measured, emission: at which phases of the period the samples are,
+        ascending within one turn; empty: equally spaced from 0 on. From -100 to 100.
     """
     __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation",
                  "fall_time_s", "sigma_s", "emission", "sample_phases_rad")
@@ -425,63 +498,29 @@ class Waveform(Record):
         self.sample_phases_rad = list(sample_phases_rad)
 
 
-class Area(Record):
-    """Where the light of a source comes out: at a point, or evenly all over a disk or rectangle across
-    its axis. So many points at fixed places stand for that, in equal shares (theory 2.1).
-
-    Attributes
-    ----------
-    kind : Literal["none", "disk", "rectangle"]
-    radius_m : float, m
-        Disk.
-    width_m : float, m
-        Rectangle: toward the camera's x (of an axis along x: its y).
-    height_m : float, m
-        Across that.
-    points : int
-    """
-    __slots__ = ("kind", "radius_m", "width_m", "height_m", "points")
-    kind: Literal["none", "disk", "rectangle"]
-    radius_m: float
-    width_m: float
-    height_m: float
-    points: int
-
-    def __init__(
-        self,
-        *,
-        kind: Literal["none", "disk", "rectangle"] = 'none',
-        radius_m: float = 0.0,
-        width_m: float = 0.0,
-        height_m: float = 0.0,
-        points: int = 16,
-    ) -> None:
-        self.kind = kind
-        self.radius_m = radius_m
-        self.width_m = width_m
-        self.height_m = height_m
-        self.points = points
-
-
 class Illumination(Record):
     """One of the camera's light sources, in the camera frame.
 
     Attributes
     ----------
     position : tuple[float, float, float], m
+        Where the light source stands, in the camera's frame. From -100 to 100.
     axis : tuple[float, float, float], 1
+        Which way it shines, in the camera's frame. From -1e6 to 1e6.
     illumination_wavelength_m : float, m
+        Wavelength of the light source. From 3e-7 to 2e-6.
     power_w : float, W
-        Optical, of a lit raw frame, mean over the modulation period.
+        Optical, of a lit raw frame, mean over the modulation period. From 0 to 10000.
     ring_leds : int
-        So many sources, evenly on a circle about `position`, across `axis`; they share the power.
+        So many sources on a circle about the position, across the axis. From 1 to 64.
     ring_radius_m : float, m
-        Of that circle; the first stands toward the camera's x (of an axis along x: its y).
+        Radius of the circle that ring_leds stand on. From 0 to 10.
     area : Area
-        Of each; its middle is where a point would be.
+        A disk or rectangle across the axis, which shines evenly, in place of a point.
     pattern : Pattern
-        Of each point.
+        How the light is spread over directions.
     waveform : Waveform
+        How the light is modulated.
     """
     __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern",
                  "waveform")
@@ -525,58 +564,77 @@ class Pixel(Record):
     Attributes
     ----------
     quantum_efficiency : Curve
-        Wavelength [m] → QE; one sample: a constant.
+        Electrons per photon, by wavelength. x: wavelength from 1e-7 to 2e-5 m, y: value from 0 to
+        1.
     contrast : Curve
-        Modulation frequency [Hz] → K; one sample: a constant.
+        Demodulation contrast of the pixel itself; in files 1 unless given. Modulation frequency
+        [Hz] → K; one sample: a constant. x: modulation frequency from 1000 to 1e10 Hz, y: value
+        from 0 to 1.
     contrast_by_wavelength : Curve
-        Wavelength [m] → factor on K; none: 1.
+        On the contrast, at the wavelength of each light; in files 1 unless given; not of a measured
+        waveform, which has it in it. Wavelength [m] → factor on K; none: 1. x: wavelength from 1e-7
+        to 2e-5 m, y: factor from 0 to 10.
     bandwidth_hz : float, Hz
-        Single pole of the gate; 0: none.
+        Single pole of the gate; 0: none. From 0 to 1e12.
     full_well_e : float, e
+        Charge that a tap holds. From 1 to 1e30.
     read_noise_e : float, e
-        Reset + read, 1 sigma; reset noise alone may stand in reset_noise_e.
+        Per tap, reset and read, 1 sigma; reset noise has a key of its own, too. From 0 to 1e6.
     column_noise_e : float, e
-        Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
+        Of A-B, shared by a column, anew in each raw frame, 1 sigma. From 0 to 1e6.
     row_noise_e : float, e
-        The same of a row.
+        Noise that all pixels of a row share. From 0 to 1e6.
     dark_current_e_per_s : float, e/s
-        At Temperature::reference_celsius.
+        Per tap, at the camera's reference temperature. From 0 to 1e12.
     dark_current_doubling_k : float, K
-        It doubles with every so many kelvin above that; 0: the same at all temperatures.
+        It doubles with every so many kelvin; 0: the same at all temperatures. From 0 to 1000.
     tap_gain_mismatch : float, 1
-        G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
+        How tap A differs from tap B in all pixels: g: A collects 1 + g/2 of its charge, B 1 - g/2.
+        From -1 to 1.
     tap_offset_mismatch_e : float, e
-        What A has more than B before any charge comes.
+        How tap A differs from tap B in all pixels: A holds half of this more, B half of it less, in
+        each raw frame. From -1e6 to 1e6.
     crosstalk_left_right : float, 1
-        Share of a pixel's charge that its left neighbour collects, and the right one as much.
+        Charge that neighbours collect: share of its charge that the left neighbour gets, and the
+        right one as much. From 0 to 0.25.
     crosstalk_up_down : float, 1
-        The same of the neighbours above and below.
+        Charge that neighbours collect: share of the charge that goes to each of the pixels above
+        and below. From 0 to 0.25.
     nonlinearity : Curve
-        Charge of a tap [e⁻] → charge that is read of it; none: the same.
+        What is read of a tap's charge, from 0 e on, rising; in files what there is unless given.
+        Charge of a tap [e⁻] → charge that is read of it; none: the same. x: charge from 0 to 1e12
+        e, y: read from 0 to 1e12 e.
     prnu : float, 1
-        Photo response non-uniformity, 1 sigma, relative.
+        What differs from pixel to pixel: photo response non-uniformity, 1 sigma. From 0 to 1.
     dsnu_dn : float, DN
-        Offset pattern, 1 sigma [DN].
+        What differs from pixel to pixel: offset pattern, 1 sigma. From 0 to 10000.
     delay_s : float, s
-        Fixed-pattern delay per pixel, 1 sigma.
+        What differs from pixel to pixel: fixed delay per pixel, 1 sigma. From 0 to 1e-6.
     phase_offset_rad : float, rad
-        Fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma.
+        What differs from pixel to pixel: fixed phase per pixel and modulation frequency, 1 sigma.
+        From 0 to 6.28319.
     pattern_seed : int
-        Which specimen of the sensor: seed of the patterns above.
+        What differs from pixel to pixel: which specimen of the sensor. From 0 to 9007199254740991.
     suppression_threshold_e : float, e
-        Background suppression: when the smaller tap reaches the threshold, the excess is taken off
-        both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
-        x. Threshold 0: no suppression.
+        Background suppression: starts when the smaller tap reaches it; 0: no suppression. From 0 to
+        1e12.
     suppression_budget_e : float, e
+        Background suppression: largest charge taken off each tap. From 0 to 1e12.
     suppression_noise_factor : float, 1
+        Background suppression: each tap's removed charge x adds a variance of
+        suppression_noise_factor^2 x. From 0 to 100.
     reset_noise_e : float, e
-        KTC noise of a tap at Temperature::reference_celsius, 1 sigma, beside read_noise_e.
+        Charge that the reset leaves in a tap by chance: per tap at the camera's reference
+        temperature, 1 sigma, beside read_noise_e. From 0 to 1e6.
     cancels_reset_noise : bool
-        Correlated double sampling: no reset noise, but each tap is read twice.
+        Charge that the reset leaves in a tap by chance: by correlated double sampling: none is
+        left, but taps are read twice.
     blooming_share : float, 1
-        Of the charge beyond a full well, what each of the four neighbours gets; 0: none.
+        Charge beyond a full well, which spills: of it that each of the four neighbours gets. From 0
+        to 0.25.
     blooming_limit_e : float, e
-        Who gets more than this in a lit raw frame is flagged as saturated.
+        Charge beyond a full well, which spills: who gets more in a lit raw frame is flagged as
+        saturated. From 0 to 1e12.
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
@@ -677,14 +735,20 @@ class Adc(Record):
     Attributes
     ----------
     bits : int
+        Codes go from 0 to 2^bits - 1. From 1 to 16.
     step_e_per_dn : float, e/DN
-        S.
+        Electrons of A-B per code. From 1e-6 to 1e9.
     mid_code : float, DN
+        Code of A-B = 0; in files the middle unless given. 2^(bits − 1) is the middle. From 0 to
+        65535.
     valid_min : int
-        Codes outside valid_min…valid_max flag the pixel as saturated.
+        Codes below are flagged as saturated; in files 0 unless given. Codes outside
+        valid_min…valid_max flag the pixel as saturated. From 0 to 65535.
     valid_max : int
+        Codes above are flagged as saturated; in files the largest unless given. From 0 to 65535.
     gains : list[float], 1
-        What modes may choose from; the step of a mode is step_e_per_dn over its gain.
+        What modes may choose from; a mode's step is `step_e_per_dn` over its gain. From 0.01 to
+        100.
     """
     __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max", "gains")
     bits: int
@@ -712,75 +776,6 @@ class Adc(Record):
         self.gains = list(gains)
 
 
-class RawFrame(Record):
-    """One exposure of the sequence.
-
-    Attributes
-    ----------
-    lit : bool
-    modulation_frequency_hz : float, Hz
-        0 where unlit.
-    reference_phase_rad : float, rad
-        Τ.
-    integration_time_s : float, s
-    reference_delay_s : float, s
-        The light is later by this against the gate: adds 2π·f·delay to τ.
-    """
-    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
-    lit: bool
-    modulation_frequency_hz: float
-    reference_phase_rad: float
-    integration_time_s: float
-    reference_delay_s: float
-
-    def __init__(
-        self,
-        *,
-        lit: bool = True,
-        modulation_frequency_hz: float = 0.0,
-        reference_phase_rad: float = 0.0,
-        integration_time_s: float = 0.0,
-        reference_delay_s: float = 0.0,
-    ) -> None:
-        self.lit = lit
-        self.modulation_frequency_hz = modulation_frequency_hz
-        self.reference_phase_rad = reference_phase_rad
-        self.integration_time_s = integration_time_s
-        self.reference_delay_s = reference_delay_s
-
-
-class Mode(Record):
-    """One of a profile's modes: the raw frames that make a frame, in their order, and how often a
-    frame begins.
-
-    Attributes
-    ----------
-    name : str
-    frame_rate_hz : float, Hz
-    sequence : list[RawFrame]
-    gain : float, 1
-        Of the amplifier before the ADC: one of Adc::gains, or 1.
-    """
-    __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
-    name: str
-    frame_rate_hz: float
-    sequence: list[RawFrame]
-    gain: float
-
-    def __init__(
-        self,
-        *,
-        name: str = '',
-        frame_rate_hz: float = 0.0,
-        sequence: Sequence[RawFrame] = (),
-        gain: float = 1.0,
-    ) -> None:
-        self.name = name
-        self.frame_rate_hz = frame_rate_hz
-        self.sequence = list(sequence)
-        self.gain = gain
-
-
 class ImageFilter(Record):
     """Image filter over the range image; invalid pixels are neither changed nor used. Bilateral and
     adaptive filters leave edges as they are, and come before the check for flying pixels; the
@@ -790,16 +785,16 @@ class ImageFilter(Record):
     ----------
     kind : Literal["none", "gaussian", "median", "bilateral", "adaptive"]
     sigma_px : float, px
-        Gaussian, bilateral.
+        gaussian, bilateral: width of the kernel. From 0.1 to 10.
     radius_px : int
-        Median, adaptive: window (2 radius + 1)², at most.
+        median, adaptive: window of (2 radius + 1)^2 pixels, of adaptive at most. From 1 to 4.
     sigmas : float, 1
-        Bilateral, adaptive: neighbours count that are off by less than this times the noise of the
-        difference ….
+        bilateral, adaptive: neighbours count that are off by less than this times the noise. From 0
+        to 1000.
     range_m : float, m
-        Bilateral: … and this, summed in quadrature.
+        bilateral: and this, the root of both squares' sum. From 0 to 1000.
     goal_m : float, m
-        Adaptive: neighbours are added, ring by ring, until the noise is no more than this.
+        adaptive: neighbours are added until the noise is no more than this. From 0 to 1000.
     """
     __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
     kind: Literal["none", "gaussian", "median", "bilateral", "adaptive"]
@@ -834,16 +829,21 @@ class FrequencyCalibration(Record):
     Attributes
     ----------
     modulation_frequency_hz : float, Hz
+        Of which all this is. From 1000 to 1e10.
     phase_offset_rad : float, rad
-        Of all pixels, at DecoderCalibration::reference_celsius.
+        Phases are measured too large by this in all pixels. From -100 to 100.
     drift_m_per_kelvin : float, m/K
-        Half a path that is measured too long for each kelvin beyond that, besides.
+        Range for each kelvin of temperature.actual beyond the calibration's. From -1 to 1.
     wiggling_cos_rad : list[float], rad
-        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+        What the harmonics do to the phase, as sines and cosines of 1, 2, ... times the measured
+        phase: of each cosine, the first one first. From -1 to 1.
     wiggling_sin_rad : list[float], rad
-        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+        What the harmonics do to the phase, as sines and cosines of 1, 2, ... times the measured
+        phase: of each sine, as many. From -1 to 1.
     pixel_phase_file : str
-        What the following are called: `meta` says this alone of them.
+        A file of NumPy beside this one or below: phase [rad] of each pixel [height, width],
+        besides; in files 0 unless given. What the following are called: `meta` says this alone of
+        them.
     pixel_phase_rad : list[float], rad
         [height][width] of the image that is read out, besides; none: 0.
     """
@@ -884,12 +884,12 @@ class DecoderCalibration(Record):
     Attributes
     ----------
     kind : Literal["exact", "none", "specimen"]
-        Exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels
+        exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels
         all alike; specimen: what follows.
-    reference_celsius : float, °C
-        At which it was measured.
+    reference_celsius : float, degC
+        specimen: temperature at which it was measured. From -100 to 200.
     frequencies : list[FrequencyCalibration]
-        One for each of the mode.
+        specimen: one for each of the mode.
     """
     __slots__ = ("kind", "reference_celsius", "frequencies")
     kind: Literal["exact", "none", "specimen"]
@@ -914,44 +914,59 @@ class Decoding(Record):
     Attributes
     ----------
     wiggling_correction : bool
+        Take out what the harmonics do to the phase.
     noise_threshold_m : float, m
-        Σ̂ above this: low signal; also the scale of confidence.
+        More noise than this: flagged as low signal; also the scale of confidence. From 1e-6 to
+        1000.
     amplitude_threshold_e : float, e
-        Amplitude below this: low signal.
+        Less amplitude than this: flagged as low signal. From 0 to 1e12.
     lower_saturation_dn : float | None, DN
-        Codes beyond: saturated; unless given, the ADC's valid codes.
+        Codes below are flagged as saturated; adc.valid_min unless given. From 0 to 65535.
     upper_saturation_dn : float | None, DN
-        Codes beyond: saturated; unless given, the ADC's valid codes.
+        Codes above are flagged as saturated; adc.valid_max unless given. From 0 to 65535.
     flying_near_z_m : float, m
-        Limit on |Δz| grows linearly from here ….
+        Limits of the flying pixel flag: the limit on |dz| grows linearly from here. From 0 to
+        10000.
     flying_near_limit_m : float, m
-        Limit on |Δz| grows linearly from here ….
+        Limits of the flying pixel flag: limit at flying_near_z_m and before. From 0 to 1000.
     flying_far_z_m : float, m
-        … to here, constant outside.
+        Limits of the flying pixel flag: to here, where flying_far_limit_m holds. From 0 to 10000.
     flying_far_limit_m : float, m
-        … to here, constant outside.
+        Limits of the flying pixel flag: limit at flying_far_z_m and beyond. From 0 to 1000.
     flying_sigmas : float, 1
-        … and a flying pixel is off by more than this times the noise of the difference, too.
+        Limits of the flying pixel flag: |dz| has to be more than this times its noise, too; 0: the
+        limit alone. From 0 to 1000.
     flying_check : bool
-        False: nobody looks for flying pixels.
+        Limits of the flying pixel flag: whether flying pixels are looked for.
     asymmetry_limit_e : float, e
-        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
+        moves: largest |D_k + D_k+2| before a pixel is flagged. From 0 to 1e12.
     asymmetry_sigmas : float, 1
-        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
+        moves: the sum has to be more than this times its noise, too. From 0 to 1000.
     asymmetry_reject : bool
-        The depth is invalid then; otherwise the flag is a warning.
+        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
+        moves: whether the depth is invalid then.
     multipath_limit_m : float, m
-        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+        Two modulation frequencies say the same, unless light took several paths: largest difference
+        of the ranges before a pixel is flagged. From 0 to 10000.
     multipath_sigmas : float, 1
-        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+        Two modulation frequencies say the same, unless light took several paths: the difference has
+        to be more than this times its noise, too. From 0 to 1000.
     multipath_reject : bool
+        Two modulation frequencies say the same, unless light took several paths: whether the depth
+        is invalid then.
     temporal_frames : int
-        Range is the mean over so many frames, the last one and those before it; 1: of each by
-        itself.
+        Mean over frames that follow each other, pixel by pixel: the last one and those before it;
+        1: each frame stands by itself. From 1 to 32.
     temporal_sigmas : float, 1
-        … of those that are off by less than this times the noise of the difference.
+        Mean over frames that follow each other, pixel by pixel: frames count that are off by less
+        than this times the noise. From 0 to 1000.
     filter : ImageFilter
+        Filter over the range image.
     calibration : DecoderCalibration
+        What decoding knows of the specimen: exact (all), none (a sine, pixels alike), or a file of
+        it.
     """
     __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
                  "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
@@ -1033,15 +1048,18 @@ class Temperature(Record):
 
     Attributes
     ----------
-    celsius : float, °C
-    reference_celsius : float, °C
+    celsius : float, degC
+        Temperature of the camera. From -100 to 200.
+    reference_celsius : float, degC
+        At which the range has no drift. From -100 to 200.
     drift_m_per_kelvin : float, m/K
-        D_off = drift · (T − reference), added to half the path.
+        Range per kelvin off the reference. From -1 to 1.
     warm_up_m : float, m
-        First-order warm-up: warm_up · (1 − exp(−t/time constant)).
+        Range drifts by this while the camera warms up, first order. From -1 to 1.
     warm_up_time_s : float, s
+        Time constant of the warm-up. From 0.001 to 1e6.
     since_start_s : float, s
-        How long the camera has run at frame 0.
+        How long the camera has run at frame 0. From 0 to 1e12.
     """
     __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
     celsius: float
@@ -1076,14 +1094,14 @@ class Interference(Record):
     Attributes
     ----------
     share : float, 1
-        Of its light over the own, in each pixel; 0: there is no other camera.
+        Of its light over the own, in each pixel; 0: no other camera. From 0 to 100.
     frequency_difference_hz : float, Hz
-        Its modulation frequencies less the own.
+        Its modulation frequencies less the own. From -1e9 to 1e9.
     active : float, 1
-        How likely a raw frame meets its light, 0…1.
+        How likely a raw frame meets its light. From 0 to 1.
     phase_rad : float | None, rad
-        By how much its light is later than the own, at the start of frame 0; none: drawn anew for
-        each raw frame.
+        Of its light behind the own at the start of frame 0; drawn anew for each raw frame unless
+        given. From -100 to 100.
     """
     __slots__ = ("share", "frequency_difference_hz", "active", "phase_rad")
     share: float
@@ -1112,10 +1130,12 @@ class Calibration(Record):
     Attributes
     ----------
     range_offset_m : float, m
-        Raw data show surfaces too far by this.
+        Raw data show surfaces too far by this; decoding takes it off. From -10000 to 10000.
     phase_offset : Curve
-        Modulation frequency [Hz] → how much too large its phase is in raw data [rad], besides; one
-        sample: a constant; none: 0.
+        Phases of raw data are too large by this, besides; decoding takes it off; in files 0 unless
+        given. Modulation frequency [Hz] → how much too large its phase is in raw data [rad],
+        besides; one sample: a constant; none: 0. x: modulation frequency from 1000 to 1e10 Hz, y:
+        value from -100 to 100 rad.
     """
     __slots__ = ("range_offset_m", "phase_offset")
     range_offset_m: float
@@ -1138,9 +1158,9 @@ class SpreadSpectrum(Record):
     Attributes
     ----------
     width : float, 1
-        Of the band, over the modulation frequency; 0: none.
+        Of the band over the modulation frequency; 0: none. From 0 to 0.5.
     kind : Literal["center", "down"]
-        Center: the modulation frequency is the band's middle; down: its upper end.
+        center: the modulation frequency is the band's middle; down: its upper end.
     """
     __slots__ = ("width", "kind")
     width: float
@@ -1162,15 +1182,19 @@ class Readout(Record):
     Attributes
     ----------
     binning : int
-        N: the charge of n × n neighbours is added before it is read.
+        n: charge of n x n pixels is added before it is read. From 1 to 16.
     left : int
-        First column and row of the sensor that are read.
+        The rectangle of the sensor that is read, in pixels of the sensor: first column that is
+        read. From 0 to 16384.
     top : int
-        First column and row of the sensor that are read.
+        The rectangle of the sensor that is read, in pixels of the sensor: first row that is read.
+        From 0 to 16384.
     width : int
-        Columns from there on; 0: as far as the sensor goes.
+        The rectangle of the sensor that is read, in pixels of the sensor: columns; 0: as far as the
+        sensor goes. From 0 to 16384.
     height : int
-        Rows.
+        The rectangle of the sensor that is read, in pixels of the sensor: rows; 0: as far as the
+        sensor goes. From 0 to 16384.
     """
     __slots__ = ("binning", "left", "top", "width", "height")
     binning: int
@@ -1201,16 +1225,16 @@ class AutoExposure(Record):
     Attributes
     ----------
     speed : float, 1
-        0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times
-        stay.
+        Of the way to the aim in each frame; 0: integration times stay. From 0 to 1.
     aim : float, 1
-        How far the bright pixels shall go, a share of the valid codes and of the well.
+        How much of the valid codes, and of their wells, the bright pixels shall use. From 0.01 to
+        1.
     bright : float, 1
-        Which those are: the quantile of all pixels.
+        So many of the pixels are no brighter than those. From 0 to 1.
     shortest_s : float, s
-        Longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s.
+        Lit integration times get no shorter; 0: timing.min_integration_time. From 0 to 1000.
     longest_s : float, s
-        … and no longer than this; 0: than the mode has it.
+        And no longer; 0: as the mode has them. From 0 to 1000.
     """
     __slots__ = ("speed", "aim", "bright", "shortest_s", "longest_s")
     speed: float
@@ -1235,6 +1259,80 @@ class AutoExposure(Record):
         self.longest_s = longest_s
 
 
+class RawFrame(Record):
+    """One exposure of the sequence.
+
+    Attributes
+    ----------
+    lit : bool
+        Whether the camera's light is on.
+    modulation_frequency_hz : float, Hz
+        lit: modulation frequency of a lit raw frame. From 1000 to 1e10.
+    reference_phase_rad : float, rad
+        lit: of lit raw frames; a list makes one raw frame of each. From -100 to 100.
+    integration_time_s : float, s
+        How long the raw frame collects light. From 1e-9 to 1000.
+    reference_delay_s : float, s
+        lit: in place of reference_phase_rad: the light is later by this, as a path may be. From
+        -0.001 to 0.001.
+    """
+    __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
+    lit: bool
+    modulation_frequency_hz: float
+    reference_phase_rad: float
+    integration_time_s: float
+    reference_delay_s: float
+
+    def __init__(
+        self,
+        *,
+        lit: bool = True,
+        modulation_frequency_hz: float = 0.0,
+        reference_phase_rad: float = 0.0,
+        integration_time_s: float = 0.0,
+        reference_delay_s: float = 0.0,
+    ) -> None:
+        self.lit = lit
+        self.modulation_frequency_hz = modulation_frequency_hz
+        self.reference_phase_rad = reference_phase_rad
+        self.integration_time_s = integration_time_s
+        self.reference_delay_s = reference_delay_s
+
+
+class Mode(Record):
+    """One of a profile's modes: the raw frames that make a frame, in their order, and how often a
+    frame begins.
+
+    Attributes
+    ----------
+    name : str
+    frame_rate_hz : float, Hz
+        Frame i starts at i / frame_rate_hz. From 0.0001 to 100000.
+    sequence : list[RawFrame]
+        The raw frames, in order.
+    gain : float, 1
+        Before the ADC, one of adc.gains. From 0.01 to 100.
+    """
+    __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
+    name: str
+    frame_rate_hz: float
+    sequence: list[RawFrame]
+    gain: float
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        frame_rate_hz: float = 0.0,
+        sequence: Sequence[RawFrame] = (),
+        gain: float = 1.0,
+    ) -> None:
+        self.name = name
+        self.frame_rate_hz = frame_rate_hz
+        self.sequence = list(sequence)
+        self.gain = gain
+
+
 class Camera(Record):
     """A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and
     how they are decoded.
@@ -1242,26 +1340,43 @@ class Camera(Record):
     Attributes
     ----------
     name : str
+        Name of the camera.
     source : str
         The file it came from.
     sensor : Sensor
+        The grid of pixels.
     lens : Lens
+        From directions to pixels.
     filter : Filter
+        Before the sensor, for ambient light.
     illumination : list[Illumination]
+        The camera's own lights, which add up.
     pixel : Pixel
+        The two-tap pixel.
     adc : Adc
+        From electrons to codes.
     decoding : Decoding
+        From raw frames to depth.
     temperature : Temperature
+        Drift of the range.
     interference : Interference
+        Light of another camera of the same kind, at the same place.
     calibration : Calibration
+        What raw data are off by, the same in all pixels.
     spread_spectrum : SpreadSpectrum
+        Modulation frequencies swept over a band within each exposure.
     readout : Readout
+        Which pixels of the sensor are read, and how many together.
     auto_exposure : AutoExposure
+        Integration times that follow the light, from frame to frame.
     refractive_index : float, 1
+        Refractive index of the medium that light travels in. From 1 to 3.
     readout_time_s : float, s
-        Between the end of one exposure and the start of the next.
+        Of the readout: from the end of one exposure to the start of the next. From 0 to 10.
     min_integration_time_s : float, s
+        Of the readout: shortest exposure the camera can do. From 0 to 10.
     power_model : Literal["tofray", "paper_literal"]
+        paper_literal: the printed formula of the paper, for comparison only.
     mode : Mode
         The chosen one.
     mode_names : list[str]
@@ -1340,6 +1455,273 @@ class Camera(Record):
         self.mode_names = list(mode_names)
 
 
+class Pose(PoseMethods):
+    """Where the camera stands. Camera frame: x right, y down, z forward (the optical frame of ROS and
+    OpenCV).
+
+    Attributes
+    ----------
+    position : tuple[float, float, float], m
+        Of the entrance pupil. From -100000 to 100000.
+    look_at : tuple[float, float, float], m
+        A point on the optical axis; [1, 0, 0] where `world_up` is z. From -100000 to 100000.
+    up : tuple[float, float, float], 1
+        The world's direction that is up in the image; that of `world_up`. From -1e6 to 1e6.
+    quaternion : tuple[float, float, float, float] | None, 1
+        x, y, z, w, from the camera's frame to the world's, of length 1. From -1e6 to 1e6.
+    """
+    __slots__ = ("position", "look_at", "up", "quaternion")
+    position: tuple[float, float, float]
+    look_at: tuple[float, float, float]
+    up: tuple[float, float, float]
+    quaternion: tuple[float, float, float, float] | None
+
+    def __init__(
+        self,
+        *,
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        look_at: tuple[float, float, float] = (0.0, 0.0, 1.0),
+        up: tuple[float, float, float] = (0.0, -1.0, 0.0),
+        quaternion: tuple[float, float, float, float] | None = None,
+    ) -> None:
+        self.position = position
+        self.look_at = look_at
+        self.up = up
+        self.quaternion = quaternion
+
+
+class CameraKeyframe(Record):
+    """Where the camera stands at a time. Between two of them its position changes evenly. Where one
+    has a quaternion it turns evenly, the shortest way; else look_at and up change evenly: a camera
+    that looks at one point goes on doing so. Before the first and after the last it stands still.
+
+    Attributes
+    ----------
+    time_s : float, s
+        When; frame i starts at i / frame rate. From -1e6 to 1e6.
+    pose : Pose
+        Where the camera stands then.
+    """
+    __slots__ = ("time_s", "pose")
+    time_s: float
+    pose: Pose
+
+    def __init__(
+        self,
+        *,
+        time_s: float = 0.0,
+        pose: Pose | None = None,
+    ) -> None:
+        self.time_s = time_s
+        self.pose = Pose() if pose is None else pose
+
+
+class Override(Record):
+    """A key of the profile that the scene changes: dotted path and the text of the value, e.g.
+    {"lens.f_number", "1.2"} or {"integration_time", "500 us"}.
+
+    Attributes
+    ----------
+    key : str
+    value : str
+    where : str
+        file:line:col for messages; empty if built in code.
+    """
+    __slots__ = ("key", "value", "where")
+    key: str
+    value: str
+    where: str
+
+    def __init__(
+        self,
+        *,
+        key: str = '',
+        value: str = '',
+        where: str = '',
+    ) -> None:
+        self.key = key
+        self.value = value
+        self.where = where
+
+
+class CameraChoice(Record):
+    """The scene's `camera` section: which profile and mode to take, and what to change in it.
+
+    Attributes
+    ----------
+    profile : str
+        A built-in camera (`tofray list cameras`), or a profile's file beside the scene or below.
+    mode : str
+        One of the profile's modes; in files its first unless given. empty: the profile's first.
+    pose : Pose
+        Where the camera stands; the world is the camera's frame unless given.
+    keyframes : list[CameraKeyframe]
+        Where it stands when, in place of `pose`; it moves evenly between two.
+    overrides : list[Override]
+    profile_where : str
+        file:line:col for messages; empty if built in code.
+    mode_where : str
+        file:line:col for messages; empty if built in code.
+    """
+    __slots__ = ("profile", "mode", "pose", "keyframes", "overrides", "profile_where", "mode_where")
+    profile: str
+    mode: str
+    pose: Pose
+    keyframes: list[CameraKeyframe]
+    overrides: list[Override]
+    profile_where: str
+    mode_where: str
+
+    def __init__(
+        self,
+        *,
+        profile: str = 'pico-flexx',
+        mode: str = '',
+        pose: Pose | None = None,
+        keyframes: Sequence[CameraKeyframe] = (),
+        overrides: Sequence[Override] = (),
+        profile_where: str = '',
+        mode_where: str = '',
+    ) -> None:
+        self.profile = profile
+        self.mode = mode
+        self.pose = Pose() if pose is None else pose
+        self.keyframes = list(keyframes)
+        self.overrides = list(overrides)
+        self.profile_where = profile_where
+        self.mode_where = mode_where
+
+
+class Ambient(Record):
+    """Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+
+    Attributes
+    ----------
+    spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
+        The light's spectrum: a built-in name, or a table; in files sun_am15 unless given.
+    quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
+    amount : float, 1 or lx or W/m2
+        level: share of the spectrum as it is tabulated (sun_am15: of full sun). From 0 to 100.
+        illuminance_lx: on the surfaces, as a light meter reads it. From 0 to 1e7.
+        band_irradiance_w_per_m2: on the surfaces, within the camera's filter. From 0 to 100000.
+    table_wavelength_m : list[float], m
+        table: on the surfaces. From 1e-7 to 2e-5.
+    table_irradiance_w_per_m3 : list[float], W/m3
+        table: on the surfaces. From 0 to 1e13.
+    direction : tuple[float, float, float] | None, 1
+        In which the light travels (a sun with shadows); from everywhere unless given. From -1e6 to
+        1e6.
+    """
+    __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
+    spectrum: Literal["none", "sun_am15", "equal_energy", "table"]
+    quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
+    amount: float
+    table_wavelength_m: list[float]
+    table_irradiance_w_per_m3: list[float]
+    direction: tuple[float, float, float] | None
+
+    def __init__(
+        self,
+        *,
+        spectrum: Literal["none", "sun_am15", "equal_energy", "table"] = 'none',
+        quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"] = 'level',
+        amount: float = 0.0,
+        table_wavelength_m: Sequence[float] = (),
+        table_irradiance_w_per_m3: Sequence[float] = (),
+        direction: tuple[float, float, float] | None = None,
+    ) -> None:
+        self.spectrum = spectrum
+        self.quantity = quantity
+        self.amount = amount
+        self.table_wavelength_m = list(table_wavelength_m)
+        self.table_irradiance_w_per_m3 = list(table_irradiance_w_per_m3)
+        self.direction = direction
+
+
+class TransientBins(Record):
+    """Light by the length of its path, as histograms (Truth::transient_e_per_s): bin k is centred at
+    first + (k + ½)·width. Light of a path is shared between the two bins whose centres are nearest.
+
+    Attributes
+    ----------
+    bins : int
+        How many; 0: there are no histograms. From 0 to 1e6.
+    first_m : float, m
+        Where the first bin begins: whole length from light to camera. From 0 to 1e6.
+    width_m : float, m
+        How long a path a bin holds. From 1e-6 to 1e6.
+    """
+    __slots__ = ("bins", "first_m", "width_m")
+    bins: int
+    first_m: float
+    width_m: float
+
+    def __init__(
+        self,
+        *,
+        bins: int = 0,
+        first_m: float = 0.0,
+        width_m: float = 0.001,
+    ) -> None:
+        self.bins = bins
+        self.first_m = first_m
+        self.width_m = width_m
+
+
+class Transport(Record):
+    """How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 +
+    bounces of them. Which ways it takes is chosen by chance, but the same for all frames: it is no
+    noise of the camera's. Arrays in place of the scene bounce nothing.
+
+    Attributes
+    ----------
+    bounces : int
+        Surfaces that light meets beyond the first one, at most. From 0 to 64.
+    samples : int
+        Ways of light that are followed for each pixel, where bounces is not 0; of max_samples the
+        first. From 1 to 65536.
+    seed : int
+        Another one: other ways, the same light. From 0 to 9007199254740991.
+    max_samples : int
+        Twice as many again and again, pixel by pixel, up to these, until path_noise_m is reached;
+        0: samples. From 0 to 65536.
+    path_noise_m : float, m
+        Standard error of the half path at which a pixel has ways enough; 0: a fifth of its depth
+        noise. From 0 to 100.
+    smooth : bool
+        Light that bounces is smoothed over neighbours that see the same surface.
+    transient : TransientBins
+        Light by the length of its path, as a histogram for each pixel; none unless given.
+    """
+    __slots__ = ("bounces", "samples", "seed", "max_samples", "path_noise_m", "smooth", "transient")
+    bounces: int
+    samples: int
+    seed: int
+    max_samples: int
+    path_noise_m: float
+    smooth: bool
+    transient: TransientBins
+
+    def __init__(
+        self,
+        *,
+        bounces: int = 0,
+        samples: int = 16,
+        seed: int = 0,
+        max_samples: int = 0,
+        path_noise_m: float = 0.0,
+        smooth: bool = False,
+        transient: TransientBins | None = None,
+    ) -> None:
+        self.bounces = bounces
+        self.samples = samples
+        self.seed = seed
+        self.max_samples = max_samples
+        self.path_noise_m = path_noise_m
+        self.smooth = smooth
+        self.transient = TransientBins() if transient is None else transient
+
+
 class Material(Record):
     """How a surface sends light back, at the illumination wavelength.
 
@@ -1349,22 +1731,26 @@ class Material(Record):
         Empty for a material written inside an object.
     brdf : Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
     diffuse : float, 1
-        K_d, 0…1: Lambertian reflectivity (Lambert, Oren–Nayar: the reflectivity rho; GGX: its
-        ground's).
+        lambert, oren_nayar: share of the light that comes back, all of it diffuse. phong: k_d, the
+        Lambertian share. ggx: k_d of the matt ground below the small mirrors; 0: a metal. retro:
+        k_d, the Lambertian share. From 0 to 1.
     specular : float, 1
-        Phong: k_s, the lobe's share, k_d + k_s <= 1; GGX: F_0, of one of its mirrors at normal
-        incidence.
+        phong: k_s, the share of the lobe about the mirror direction; diffuse + specular may not
+        exceed 1. ggx: F_0, what each small mirror reflects at normal incidence: 0.04 of plastic,
+        0.9 of aluminium. From 0 to 1.
     exponent : float, 1
-        N >= 1: the Phong lobe's exponent.
+        phong: n of the lobe's cos^n: the larger, the shinier. From 1 to 10000.
     roughness_rad : float, rad
-        Σ, 0…π/2: Oren–Nayar's spread of the slopes of a matt surface's facets.
+        oren_nayar: spread (1 sigma) of the slopes of the surface's facets; 0: Lambert. From 0 to
+        1.5708.
     alpha : float, 1
-        Α, 0.001…1: GGX's spread of the slopes of small mirrors (glTF's roughness squared).
+        ggx: spread of the small mirrors' slopes: glTF's roughness, squared. From 0.001 to 1.
     retro : float, 1
-        K_r, 0…1 with k_d + k_r <= 1: the share that a retro-reflector sends back toward the light.
+        retro: k_r, the share that goes back toward the light; diffuse + retro may not exceed 1.
+        From 0 to 1.
     spread_rad : float, rad
-        Σ, 1e-3…π/4: angle between light and camera at which half of the retro-reflector's peak is
-        left.
+        retro: angle between light and camera at which half of the peak is left. From 0.001 to
+        0.785398.
     map : ReflectivityMap | None
         Scales `diffuse` from place to place; none: it is the same everywhere.
     normals : VectorMap | None
@@ -1434,7 +1820,9 @@ class Plane(Record):
     Attributes
     ----------
     point : tuple[float, float, float], m
+        A point of the plane. From -100000 to 100000.
     normal : tuple[float, float, float], 1
+        Any length but zero; both sides reflect. From -1e6 to 1e6.
     """
     __slots__ = ("point", "normal")
     point: tuple[float, float, float]
@@ -1456,7 +1844,9 @@ class Sphere(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
+        Its centre. From -100000 to 100000.
     radius : float, m
+        Its radius. From 1e-6 to 100000.
     """
     __slots__ = ("center", "radius")
     center: tuple[float, float, float]
@@ -1478,7 +1868,9 @@ class Box(Record):
     Attributes
     ----------
     min : tuple[float, float, float], m
+        The corner of the smallest x, y and z, before the rotation. From -100000 to 100000.
     max : tuple[float, float, float], m
+        The opposite corner. From -100000 to 100000.
     """
     __slots__ = ("min", "max")
     min: tuple[float, float, float]
@@ -1500,6 +1892,7 @@ class Triangle(Record):
     Attributes
     ----------
     vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]], m
+        The three corners. From -100000 to 100000.
     """
     __slots__ = ("vertices",)
     vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
@@ -1519,9 +1912,13 @@ class Cylinder(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
+        Halfway between its caps. From -100000 to 100000.
     axis : tuple[float, float, float], 1
+        From cap to cap; any length but zero. From -1e6 to 1e6.
     radius : float, m
+        Its radius. From 1e-6 to 100000.
     height : float, m
+        From cap to cap. From 1e-6 to 100000.
     """
     __slots__ = ("center", "axis", "radius", "height")
     center: tuple[float, float, float]
@@ -1549,8 +1946,10 @@ class Rectangle(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
+        Its centre. From -100000 to 100000.
     size : tuple[float, float], m
-        Along x and y before its rotation.
+        Its width and height, along x and y before the rotation; both sides reflect. From 1e-6 to
+        100000.
     """
     __slots__ = ("center", "size")
     center: tuple[float, float, float]
@@ -1572,8 +1971,11 @@ class Disk(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
+        Its centre. From -100000 to 100000.
     normal : tuple[float, float, float], 1
+        Any length but zero; both sides reflect. From -1e6 to 1e6.
     radius : float, m
+        Its radius. From 1e-6 to 100000.
     """
     __slots__ = ("center", "normal", "radius")
     center: tuple[float, float, float]
@@ -1598,8 +2000,11 @@ class Capsule(Record):
     Attributes
     ----------
     start : tuple[float, float, float], m
+        The middle of one of its round ends. From -100000 to 100000.
     end : tuple[float, float, float], m
+        That of the other one, which is another point. From -100000 to 100000.
     radius : float, m
+        Its radius. From 1e-6 to 100000.
     """
     __slots__ = ("start", "end", "radius")
     start: tuple[float, float, float]
@@ -1625,9 +2030,13 @@ class Cone(Record):
     Attributes
     ----------
     base : tuple[float, float, float], m
+        The middle of its base. From -100000 to 100000.
     axis : tuple[float, float, float], 1
+        From the base to the tip; any length but zero. From -1e6 to 1e6.
     radius : float, m
+        Of the base. From 1e-6 to 100000.
     height : float, m
+        From base to tip. From 1e-6 to 100000.
     """
     __slots__ = ("base", "axis", "radius", "height")
     base: tuple[float, float, float]
@@ -1657,19 +2066,20 @@ class Mesh(Record):
     Attributes
     ----------
     file : str
-        Empty if built in code.
+        OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor.
     scale : float, 1
-        Of the file's numbers, to metres.
+        Of the file's numbers, to metres: 0.001 where they are mm. From 1e-9 to 1e9.
     up : Literal["automatic", "y", "z", "minus_y", "none"]
-        The file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in
-        PLY and STL;.
+        The file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY
+        or STL file; none: the file's axes are the world's.
     animation : str
-        < none: the file's axes are the world's of a glTF file: a name, a number from 0 on, or "all"
-        at once; empty: the first.
+        Which of a glTF file's animations `time_s` and `play` are of: its name, its number from 0
+        on, or all at once; the first unless given.
     time_s : float | None, s
-        Of that animation; none: as its nodes stand.
+        Of a glTF file's animation; as the file stands still unless given. From 0 to 1e6.
     play : Literal["still", "once", "loop"]
-        Whether that animation goes on, from `time_s` (or its start) at t = 0.
+        Whether a glTF file's animation goes on, from `time_s` (or its start) on: once, or again and
+        again.
     sha256 : str
         Of the file's bytes and those of the files that it names, as hexadecimal digits; empty if
         built in code.
@@ -1678,7 +2088,7 @@ class Mesh(Record):
     guessed : int
         Materials of the file whose visible colour stands for their reflectivity.
     notices : list[str]
-        Sentences: what else of the file is left out, or mended.
+        sentences: what else of the file is left out, or mended.
     triangles : TriangleMesh | None
         What is seen: already turned and scaled; objects may share it.
     motion : MeshMotion | None
@@ -1735,9 +2145,11 @@ class Rotation(Record):
     Attributes
     ----------
     axis : tuple[float, float, float], 1
+        The axis, by the right-hand rule; any length but zero. From -1e6 to 1e6.
     angle_rad : float, rad
+        By how much it turns about axis. From -100 to 100.
     quaternion : tuple[float, float, float, float] | None, 1
-        In place of axis and angle: x, y, z, w.
+        x, y, z, w, of length 1. From -1e6 to 1e6.
     """
     __slots__ = ("axis", "angle_rad", "quaternion")
     axis: tuple[float, float, float]
@@ -1764,9 +2176,11 @@ class Keyframe(Record):
     Attributes
     ----------
     time_s : float, s
+        When; frame i starts at i / frame rate. From -1e6 to 1e6.
     position : tuple[float, float, float], m
-        Shift [m], as Object::position.
+        By how much it is shifted. From -100000 to 100000.
     rotation : Rotation
+        A turn about the object's own centre.
     """
     __slots__ = ("time_s", "position", "rotation")
     time_s: float
@@ -1795,23 +2209,28 @@ class Object(Record):
     Attributes
     ----------
     name : str
+        How listings call the object.
     shape : Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material : int
-        Index in Scene::materials.
+        Index in Scene::materials. From 0 to 40000.
     position : tuple[float, float, float], m
-        Shift [m].
+        By how much it is shifted. From -100000 to 100000.
     rotation : Rotation
+        A turn about the object's own centre (of a plane: about its point).
     velocity_m_per_s : tuple[float, float, float], m/s
+        How fast it moves. From -10000 to 10000.
     angular_velocity_rad_per_s : tuple[float, float, float], rad/s
-        Its axis, in the world, times how fast it turns by the right-hand rule.
+        The axis of a steady turn about the object's own centre, times how fast it turns. From
+        -10000 to 10000.
     keyframes : list[Keyframe]
-        In place of position, rotation and both velocities; ascending in time.
+        Where it is when, in place of `position`, `rotation` and both velocities; it moves evenly
+        between two.
     class_name : str
-        What kind of thing it is, for Truth::class_id; empty: none.
+        What kind of thing it is, for gt_class_id; see the scene's `classes`.
     key : str
         How its file addresses it, e.g. "objects.2"; empty if built in code.
     where : str
-        File:line:col for messages; empty if built in code.
+        file:line:col for messages; empty if built in code.
     """
     __slots__ = ("name", "shape", "material", "position", "rotation", "velocity_m_per_s", "angular_velocity_rad_per_s", "keyframes",
                  "class_name", "key", "where")
@@ -1855,263 +2274,6 @@ class Object(Record):
         self.where = where
 
 
-class Ambient(Record):
-    """Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
-
-    Attributes
-    ----------
-    spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
-    quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
-    amount : float, by its quantity
-        In the quantity's unit.
-    table_wavelength_m : list[float], m
-        Spectrum `table`: ascending.
-    table_irradiance_w_per_m3 : list[float], W/m³
-        Spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3).
-    direction : tuple[float, float, float] | None, 1
-        Direction in which the light travels (a sun); none: uniform from everywhere.
-    """
-    __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
-    spectrum: Literal["none", "sun_am15", "equal_energy", "table"]
-    quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
-    amount: float
-    table_wavelength_m: list[float]
-    table_irradiance_w_per_m3: list[float]
-    direction: tuple[float, float, float] | None
-
-    def __init__(
-        self,
-        *,
-        spectrum: Literal["none", "sun_am15", "equal_energy", "table"] = 'none',
-        quantity: Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"] = 'level',
-        amount: float = 0.0,
-        table_wavelength_m: Sequence[float] = (),
-        table_irradiance_w_per_m3: Sequence[float] = (),
-        direction: tuple[float, float, float] | None = None,
-    ) -> None:
-        self.spectrum = spectrum
-        self.quantity = quantity
-        self.amount = amount
-        self.table_wavelength_m = list(table_wavelength_m)
-        self.table_irradiance_w_per_m3 = list(table_irradiance_w_per_m3)
-        self.direction = direction
-
-
-class TransientBins(Record):
-    """Light by the length of its path, as histograms (Truth::transient_e_per_s): bin k is centred at
-    first + (k + ½)·width. Light of a path is shared between the two bins whose centres are nearest.
-
-    Attributes
-    ----------
-    bins : int
-        0…1e6; 0: there are no histograms.
-    first_m : float, m
-        0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the
-        camera.
-    width_m : float, m
-        1e-6…1e6, of a bin.
-    """
-    __slots__ = ("bins", "first_m", "width_m")
-    bins: int
-    first_m: float
-    width_m: float
-
-    def __init__(
-        self,
-        *,
-        bins: int = 0,
-        first_m: float = 0.0,
-        width_m: float = 0.001,
-    ) -> None:
-        self.bins = bins
-        self.first_m = first_m
-        self.width_m = width_m
-
-
-class Transport(Record):
-    """How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 +
-    bounces of them. Which ways it takes is chosen by chance, but the same for all frames: it is no
-    noise of the camera's. Arrays in place of the scene bounce nothing.
-
-    Attributes
-    ----------
-    bounces : int
-        0…64; 0: light comes straight back from the surface that the lights shine on.
-    samples : int
-        1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up.
-    seed : int
-        Another one: other ways, the same light but for their error.
-    max_samples : int
-        0: as many as samples. Else a pixel goes on, twice as many again and again, up to these,
-        until it knows.
-    path_noise_m : float, m
-        Its half path to this standard error; 0: to a fifth of its depth noise.
-    smooth : bool
-        Light that bounces is smoothed over neighbours that see the same surface.
-    transient : TransientBins
-    """
-    __slots__ = ("bounces", "samples", "seed", "max_samples", "path_noise_m", "smooth", "transient")
-    bounces: int
-    samples: int
-    seed: int
-    max_samples: int
-    path_noise_m: float
-    smooth: bool
-    transient: TransientBins
-
-    def __init__(
-        self,
-        *,
-        bounces: int = 0,
-        samples: int = 16,
-        seed: int = 0,
-        max_samples: int = 0,
-        path_noise_m: float = 0.0,
-        smooth: bool = False,
-        transient: TransientBins | None = None,
-    ) -> None:
-        self.bounces = bounces
-        self.samples = samples
-        self.seed = seed
-        self.max_samples = max_samples
-        self.path_noise_m = path_noise_m
-        self.smooth = smooth
-        self.transient = TransientBins() if transient is None else transient
-
-
-class Pose(PoseMethods):
-    """Where the camera stands. Camera frame: x right, y down, z forward (the optical frame of ROS and
-    OpenCV).
-
-    Attributes
-    ----------
-    position : tuple[float, float, float], m
-    look_at : tuple[float, float, float], m
-        A point on the optical axis.
-    up : tuple[float, float, float], 1
-        Direction in the world that is up in the image.
-    quaternion : tuple[float, float, float, float] | None, 1
-        From the camera's frame to the world's, as x, y, z, w; in place of look_at and up.
-    """
-    __slots__ = ("position", "look_at", "up", "quaternion")
-    position: tuple[float, float, float]
-    look_at: tuple[float, float, float]
-    up: tuple[float, float, float]
-    quaternion: tuple[float, float, float, float] | None
-
-    def __init__(
-        self,
-        *,
-        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        look_at: tuple[float, float, float] = (0.0, 0.0, 1.0),
-        up: tuple[float, float, float] = (0.0, -1.0, 0.0),
-        quaternion: tuple[float, float, float, float] | None = None,
-    ) -> None:
-        self.position = position
-        self.look_at = look_at
-        self.up = up
-        self.quaternion = quaternion
-
-
-class CameraKeyframe(Record):
-    """Where the camera stands at a time. Between two of them its position changes evenly. Where one
-    has a quaternion it turns evenly, the shortest way; else look_at and up change evenly: a camera
-    that looks at one point goes on doing so. Before the first and after the last it stands still.
-
-    Attributes
-    ----------
-    time_s : float, s
-    pose : Pose
-    """
-    __slots__ = ("time_s", "pose")
-    time_s: float
-    pose: Pose
-
-    def __init__(
-        self,
-        *,
-        time_s: float = 0.0,
-        pose: Pose | None = None,
-    ) -> None:
-        self.time_s = time_s
-        self.pose = Pose() if pose is None else pose
-
-
-class Override(Record):
-    """A key of the profile that the scene changes: dotted path and the text of the value, e.g.
-    {"lens.f_number", "1.2"} or {"integration_time", "500 us"}.
-
-    Attributes
-    ----------
-    key : str
-    value : str
-    where : str
-        File:line:col for messages; empty if built in code.
-    """
-    __slots__ = ("key", "value", "where")
-    key: str
-    value: str
-    where: str
-
-    def __init__(
-        self,
-        *,
-        key: str = '',
-        value: str = '',
-        where: str = '',
-    ) -> None:
-        self.key = key
-        self.value = value
-        self.where = where
-
-
-class CameraChoice(Record):
-    """The scene's `camera` section: which profile and mode to take, and what to change in it.
-
-    Attributes
-    ----------
-    profile : str
-        A built-in name or a file.
-    mode : str
-        Empty: the profile's first.
-    pose : Pose
-    keyframes : list[CameraKeyframe]
-        In place of the pose; ascending in time.
-    overrides : list[Override]
-    profile_where : str
-        File:line:col for messages; empty if built in code.
-    mode_where : str
-        File:line:col for messages; empty if built in code.
-    """
-    __slots__ = ("profile", "mode", "pose", "keyframes", "overrides", "profile_where", "mode_where")
-    profile: str
-    mode: str
-    pose: Pose
-    keyframes: list[CameraKeyframe]
-    overrides: list[Override]
-    profile_where: str
-    mode_where: str
-
-    def __init__(
-        self,
-        *,
-        profile: str = 'pico-flexx',
-        mode: str = '',
-        pose: Pose | None = None,
-        keyframes: Sequence[CameraKeyframe] = (),
-        overrides: Sequence[Override] = (),
-        profile_where: str = '',
-        mode_where: str = '',
-    ) -> None:
-        self.profile = profile
-        self.mode = mode
-        self.pose = Pose() if pose is None else pose
-        self.keyframes = list(keyframes)
-        self.overrides = list(overrides)
-        self.profile_where = profile_where
-        self.mode_where = mode_where
-
-
 class SceneFile(Record):
     """A file that a scene was read from, beside its own and those of meshes.
 
@@ -2146,13 +2308,16 @@ class Scene(Record):
     source : str
         The file it came from, empty if built in code.
     camera : CameraChoice
+        Which camera, where it stands, and what to change in its profile.
     ambient : Ambient
+        Light that is not the camera's own; none unless given.
     transport : Transport
+        Light that goes on from surface to surface; straight back unless given.
     materials : list[Material]
     objects : list[Object]
     world_up : Literal["minus_y", "y", "z"]
-        The world's axis that is up. In files, what is not said follows from it: where a camera
-        looks, what is up in its image, how the axes of meshes are turned. In code nothing does.
+        The world's axis that is up: where a camera looks and what is up in its image unless its
+        pose says it, how meshes are turned; z in the worlds of ROS and Blender.
     files : list[SceneFile]
         Of keyframes.
     classes : list[str]
@@ -2341,7 +2506,7 @@ class Placement(PlacementMethods):
     Attributes
     ----------
     position : tuple[float, float, float], m
-        Shift [m], as Object::position.
+        Shift, as Object::position.
     rotation : Rotation
         About the object's own centre, as Object::rotation.
     """
@@ -2446,6 +2611,57 @@ class FrameRequest(Record):
         self.start_time_s = start_time_s
 
 
+class ObjectPlace(Record):
+    """Where an object is at one time. Its own frame has the world's axes before it turns, and its zero
+    is what it turns about: of a sphere its centre, of a mesh the file's zero. What is at P there is
+    at rotation·P + position in the world.
+
+    Attributes
+    ----------
+    name : str
+        Object::name.
+    class_name : str
+        Object::class_name.
+    position : tuple[float, float, float], m
+        In the world.
+    rotation : tuple[float, float, float, float], 1
+        From its own frame's axes to the world's.
+    endless : bool
+        A plane.
+    low : tuple[float, float, float], m
+        Its box in the world; of a plane −inf and inf.
+    high : tuple[float, float, float], m
+        Its box in the world; of a plane −inf and inf.
+    """
+    __slots__ = ("name", "class_name", "position", "rotation", "endless", "low", "high")
+    name: str
+    class_name: str
+    position: tuple[float, float, float]
+    rotation: tuple[float, float, float, float]
+    endless: bool
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        class_name: str = '',
+        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0),
+        endless: bool = False,
+        low: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        high: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        self.name = name
+        self.class_name = class_name
+        self.position = position
+        self.rotation = rotation
+        self.endless = endless
+        self.low = low
+        self.high = high
+
+
 class ObjectInView(Record):
     """What one object is to the camera, at one time. The camera looks along z of its frame.
 
@@ -2464,9 +2680,9 @@ class ObjectInView(Record):
     endless : bool
         A plane.
     low : tuple[float, float, float], m
-        Its box in the world [m]; of a plane −inf and inf.
+        Its box in the world; of a plane −inf and inf.
     high : tuple[float, float, float], m
-        Its box in the world [m]; of a plane −inf and inf.
+        Its box in the world; of a plane −inf and inf.
     behind_camera : bool
         All of it has z < 0 in the camera's frame.
     around_camera : bool
@@ -2511,56 +2727,6 @@ class ObjectInView(Record):
         self.around_camera = around_camera
 
 
-class ObjectPlace(Record):
-    """Where an object is at one time. Its own frame has the world's axes before it turns, and its zero
-    is what it turns about: of a sphere its centre, of a mesh the file's zero. What is at P there is
-    at rotation·P + position in the world.
-
-    Attributes
-    ----------
-    name : str
-        Object::name.
-    class_name : str
-        Object::class_name.
-    position : tuple[float, float, float], m
-        In the world [m].
-    rotation : tuple[float, float, float, float], 1
-    endless : bool
-        A plane.
-    low : tuple[float, float, float], m
-        Its box in the world [m]; of a plane −inf and inf.
-    high : tuple[float, float, float], m
-        Its box in the world [m]; of a plane −inf and inf.
-    """
-    __slots__ = ("name", "class_name", "position", "rotation", "endless", "low", "high")
-    name: str
-    class_name: str
-    position: tuple[float, float, float]
-    rotation: tuple[float, float, float, float]
-    endless: bool
-    low: tuple[float, float, float]
-    high: tuple[float, float, float]
-
-    def __init__(
-        self,
-        *,
-        name: str = '',
-        class_name: str = '',
-        position: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        rotation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0),
-        endless: bool = False,
-        low: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        high: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    ) -> None:
-        self.name = name
-        self.class_name = class_name
-        self.position = position
-        self.rotation = rotation
-        self.endless = endless
-        self.low = low
-        self.high = high
-
-
 class SceneFinding(Record):
     """Something about a scene that is seldom meant.
 
@@ -2568,11 +2734,11 @@ class SceneFinding(Record):
     ----------
     kind : Literal["no_objects", "nothing_in_view", "behind_camera", "millimetres", "mesh_size", "around_camera", "floor_above", "same_place", "inside_another", "beyond_reach"]
     warning : bool
-        False: a note; it may well be meant.
+        false: a note; it may well be meant.
     objects : list[int]
         Indices in Scene::objects.
     where : str
-        File:line:col of the first of them; empty if built in code.
+        file:line:col of the first of them; empty if built in code.
     what : str
         One line, complete in itself.
     more : str
@@ -2778,7 +2944,7 @@ class AmbientCase(Record):
     name : str
         What tables call it.
     ambient : Ambient
-        None: darkness.
+        none: darkness.
     pose : Pose
         Of the camera, where the ambient light has a direction.
     """
@@ -2805,11 +2971,11 @@ class CameraQuestion(Record):
     Attributes
     ----------
     distances_m : list[float], m
-        Z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m.
+        z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m.
     reflectivities : list[float], 1
         Of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
     ambients : list[AmbientCase]
-        Empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
+        empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
     """
     __slots__ = ("distances_m", "reflectivities", "ambients")
     distances_m: list[float]
@@ -2909,11 +3075,11 @@ class CameraReport(Record):
         Of the image.
     height : int
         Of the image.
-    width_deg : float, °
+    width_deg : float, deg
         Field of view between the outer edges of the outermost pixels, through the middle.
-    height_deg : float, °
+    height_deg : float, deg
         Likewise.
-    diagonal_deg : float, °
+    diagonal_deg : float, deg
         From corner to corner.
     pixel_width_m : float, m
         That one pixel sees at 1 m on the axis.
@@ -2932,7 +3098,7 @@ class CameraReport(Record):
     ambiguity_range_m : float, m
         Of the mode; 0 where no raw frame is lit.
     low_signal_m : float, m
-        Σ above this is flagged.
+        σ above this is flagged.
     knows_ambient : bool
         An unlit raw frame tells the camera how much noise ambient light makes.
     noise : list[NoiseAtDistances]
@@ -3138,7 +3304,7 @@ class UnwrapCandidate(Record):
         Whole cycles of each of the chain's phases.
     range_m : float, m
         That they mean [theory: eq. 4.7, 4.8].
-    cost_m2 : float, m²
+    cost_m2 : float, m2
         Sum of the squares of how far the other half paths are off [eq. 4.6].
     chosen : bool
         Its cost is the least: what unwrapping takes.
@@ -3174,6 +3340,7 @@ class PixelChain(Record):
     true_range_m : float, m
     true_z_m : float, m
     reflectivity : float, 1
+        Of the surface.
     incidence_rad : float, rad
     object_share : float, 1
         Of samples within the pixel.
@@ -3181,9 +3348,13 @@ class PixelChain(Record):
         Of samples within the pixel.
     position_m : tuple[float, float, float], m
     normal : tuple[float, float, float], 1
-    irradiance_w_m2 : float, W/m²
-    radiance_w_m2_sr : float, W/(m² sr)
+        Of unit length.
+    irradiance_w_m2 : float, W/m2
+        On the surface.
+    radiance_w_m2_sr : float, W/(m2 sr)
+        Back from it.
     power_w : float, W
+        On the pixel.
     raw_frames : list[ChainRawFrame]
     phases : list[ChainPhase]
         One for each modulation frequency.
@@ -3197,6 +3368,7 @@ class PixelChain(Record):
     amplitude_e : float, e
     ambient_e : float, e
     confidence : float, 1
+        0 to 255.
     point_m : tuple[float, float, float], m
     flags : int
         Bits of Flag.
@@ -3299,10 +3471,9 @@ class BounceShare(Record):
     share : float, 1
         Of the electrons of all lit raw frames, 0 … 1.
     electrons : list[float], e
-        By raw frame, before the lens scatters them [e].
+        By raw frame, before the lens scatters them.
     multipath_m : list[float], m
-        By raw frame: what it adds to the half path once all before it are there [m] [theory: eq.
-        7.8].
+        By raw frame: what it adds to the half path once all before it are there [theory: eq. 7.8].
     """
     __slots__ = ("first", "last", "share", "electrons", "multipath_m")
     first: int
@@ -3422,41 +3593,13 @@ class InputFile(Record):
         self.sha256 = sha256
 
 
-class FileRecord(Record):
-    """A file that a run has written.
-
-    Attributes
-    ----------
-    name : str
-        Within the folder.
-    bytes : int
-    sha256 : str
-        64 hexadecimal digits.
-    """
-    __slots__ = ("name", "bytes", "sha256")
-    name: str
-    bytes: int
-    sha256: str
-
-    def __init__(
-        self,
-        *,
-        name: str = '',
-        bytes: int = 0,
-        sha256: str = '',
-    ) -> None:
-        self.name = name
-        self.bytes = bytes
-        self.sha256 = sha256
-
-
 class Remark(Record):
     """Something worth telling of what goes on all the same.
 
     Attributes
     ----------
     warning : bool
-        False: a note.
+        false: a note.
     where : str
         The file it is about, or nothing.
     what : str
@@ -3516,6 +3659,34 @@ class Inputs(Record):
         self.remarks = list(remarks)
 
 
+class FileRecord(Record):
+    """A file that a run has written.
+
+    Attributes
+    ----------
+    name : str
+        Within the folder.
+    bytes : int
+    sha256 : str
+        64 hexadecimal digits.
+    """
+    __slots__ = ("name", "bytes", "sha256")
+    name: str
+    bytes: int
+    sha256: str
+
+    def __init__(
+        self,
+        *,
+        name: str = '',
+        bytes: int = 0,
+        sha256: str = '',
+    ) -> None:
+        self.name = name
+        self.bytes = bytes
+        self.sha256 = sha256
+
+
 class RunResult(Record):
     """How a run went.
 
@@ -3569,15 +3740,15 @@ class RunResult(Record):
 
 
 __all__ = [
-    "Curve", "PixelMask", "Sensor", "Scatter", "Lens", "Filter", "Pattern", "Waveform", "Area",
-    "Illumination", "Pixel", "Adc", "RawFrame", "Mode", "ImageFilter", "FrequencyCalibration",
-    "DecoderCalibration", "Decoding", "Temperature", "Interference", "Calibration",
-    "SpreadSpectrum", "Readout", "AutoExposure", "Camera", "Material", "Plane", "Sphere", "Box",
+    "PixelMask", "Sensor", "Curve", "Scatter", "Lens", "Filter", "Area", "Pattern", "Waveform",
+    "Illumination", "Pixel", "Adc", "ImageFilter", "FrequencyCalibration", "DecoderCalibration",
+    "Decoding", "Temperature", "Interference", "Calibration", "SpreadSpectrum", "Readout",
+    "AutoExposure", "RawFrame", "Mode", "Camera", "Pose", "CameraKeyframe", "Override",
+    "CameraChoice", "Ambient", "TransientBins", "Transport", "Material", "Plane", "Sphere", "Box",
     "Triangle", "Cylinder", "Rectangle", "Disk", "Capsule", "Cone", "Mesh", "Rotation", "Keyframe",
-    "Object", "Ambient", "TransientBins", "Transport", "Pose", "CameraKeyframe", "Override",
-    "CameraChoice", "SceneFile", "Scene", "RanOn", "PlanStep", "Pinhole", "Placement",
-    "PlacedObject", "FrameRequest", "ObjectInView", "ObjectPlace", "SceneFinding", "SceneReport",
-    "InvalidPixels", "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport",
-    "ChainRawFrame", "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces",
-    "Validity", "InputFile", "FileRecord", "Remark", "Inputs", "RunResult",
+    "Object", "SceneFile", "Scene", "RanOn", "PlanStep", "Pinhole", "Placement", "PlacedObject",
+    "FrameRequest", "ObjectPlace", "ObjectInView", "SceneFinding", "SceneReport", "InvalidPixels",
+    "AmbientCase", "CameraQuestion", "NoiseAt", "NoiseAtDistances", "CameraReport", "ChainRawFrame",
+    "ChainPhase", "UnwrapCandidate", "PixelChain", "BounceShare", "PixelBounces", "Validity",
+    "InputFile", "Remark", "Inputs", "FileRecord", "RunResult",
 ]

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes python/tofray/_model.py: the public structs as classes of Python, with types and docstrings.
 
-Names, types and values come from the compiled module, whose table (python/native/fields.h) the compiler compares with the structs; what a
-member is comes from the comments of include/tofray. Run after a change of them: PYTHONPATH=build/release/python python/tools/make_model.py
+Names, types and values come from the compiled module, which has them from the compiler; what a member is, its unit and its range come from
+its row in src/model (tofray_rows, which the build puts beside the package). Classes, and members that have no row (results, and what readers write), are said by the comments of include/tofray.
+Run after a change of them: PYTHONPATH=build/release/python python/tools/make_model.py
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import pathlib
 import re
 import sys
 import textwrap
+from typing import Any
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 HEAD = '''# SPDX-FileCopyrightText: 2026 The tofray authors
@@ -48,11 +50,11 @@ def declared(code: str) -> list[str]:
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
-    for header in ("scene.h", "camera.h", "simulator.h", "rendered.h", "options.h", "analysis.h", "camera_report.h", "pixel.h", "file_record.h", "run.h"):
+    for header in sorted((ROOT / "include/tofray").glob("*.h")):
         before: list[str] = []
         struct, members = "", [""]
         behind = False
-        for line in (ROOT / "include/tofray" / header).read_text(encoding="utf-8").split("\n"):
+        for line in header.read_text(encoding="utf-8").split("\n"):
             begins = re.match(r"struct (\w+) \{", line)
             if begins:
                 struct = begins[1]
@@ -90,8 +92,11 @@ def comments() -> dict[str, dict[str, str]]:
 
 
 def sentence(text: str) -> str:
-    text = re.sub(r"\s+", " ", text).strip()
-    return text[:1].upper() + text[1:] + ("" if not text or text[-1] in ".!?" else ".")
+    """A capital letter, unless the first word is a name or a symbol, and a full stop."""
+    text = re.sub(r"^(\.\.\.|…) ", "", re.sub(r"\s+", " ", text).strip())
+    if re.match(r"(a|[a-z]{2,})(?![\w:])", text):
+        text = text[:1].upper() + text[1:]
+    return text + ("" if not text or text[-1] in ".!?" else ".")
 
 
 def wrapped(text: str, indent: int) -> str:
@@ -101,35 +106,89 @@ def wrapped(text: str, indent: int) -> str:
 # Classes that have more than their members.
 BASES = {"Pinhole": "PinholeMethods", "Placement": "PlacementMethods", "Pose": "PoseMethods"}
 
-# Units that a number's name ends in …
-ENDS = {"m": "m", "m2": "m²", "deg": "°", "px": "px", "rad": "rad", "s": "s", "hz": "Hz", "w": "W", "e": "e", "k": "K", "dn": "DN", "celsius": "°C",
-        "e_per_s": "e/s", "e_per_dn": "e/DN", "m_per_s": "m/s", "m_per_kelvin": "m/K", "rad_per_s": "rad/s", "w_per_m3": "W/m³", "turns": "turns", "w_m2": "W/m²", "w_m2_sr": "W/(m² sr)"}
-# … and of those that end in none: scene.h says metres, where it is not a direction or a ratio.
-METRES = {"position", "point", "center", "radius", "min", "max", "vertices", "height", "size", "start", "end", "base", "look_at", "low", "high"}
-RATIOS = {"fill_factor", "share", "weights", "kernel", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "f_number", "transmission", "peak",
-          "exponent", "duty", "modulation_depth", "correlation", "emission", "axis", "normal", "direction", "up", "samples", "scale", "active",
-          "tap_gain_mismatch", "crosstalk_left_right", "crosstalk_up_down", "prnu", "suppression_noise_factor", "sigmas", "flying_sigmas",
-          "asymmetry_sigmas", "multipath_sigmas", "temporal_sigmas", "quaternion", "refractive_index", "diffuse", "specular", "alpha", "retro", "occupancy",
-          "blooming_share", "reflectivities", "reflectivity", "wrong_cycle", "outside", "unlit", "darkest", "gain", "gains", "speed", "aim", "bright",
-          "object_share", "mixed", "cycles", "confidence"}
-OTHERS = {"pixel_centre": "px", "mid_code": "DN", "celsius": "°C", "Ambient.amount": "by its quantity", "Curve.x": "any unit", "Curve.y": "any unit",
-          "SpreadSpectrum.width": "1", "BounceShare.electrons": "e", "ObjectPlace.rotation": "1", "RunResult.timings_s": "s"}
+IN_BRACKETS = re.compile(r"(?<!\])\B\[(?!eq\.|theory)([^],]+)\](?!\[)")  # a unit, and no equation or shape
 
 
-def unit(struct: str, member: str, type_name: str) -> str:
-    """What follows the type in a docstring: ", m"; nothing for what is no number."""
-    if "float" not in type_name:
-        return ""
-    for name in (f"{struct}.{member}", member):
-        if name in OTHERS:
-            return ", " + OTHERS[name]
-    for length in (3, 2, 1):
-        words = member.split("_")
-        if len(words) > length and "_".join(words[-length:]) in ENDS:
-            return ", " + ENDS["_".join(words[-length:])]
-    if member not in METRES | RATIOS:
-        raise SystemExit(f"python/tools/make_model.py: say the unit of {struct}.{member}")
-    return ", m" if member in METRES else ", 1"
+def short(number: float) -> str:
+    """1e+06 is 1e6."""
+    text = f"{number:.6g}"
+    if number == int(number) and float(text) != number:
+        text = str(int(number))
+    return re.sub(r"e([+-])0*", lambda found: "e" + found[1].strip("+"), text)
+
+
+class Rows:
+    """What src/model says of members: sentences, units and ranges."""
+
+    def __init__(self, structs: list[tuple[str, list[tuple[str, str, Any]]]], rows: list[dict[str, Any]]) -> None:
+        self._types = {(struct, member): kind for struct, members in structs for member, kind, _ in members}
+        self._rows: dict[tuple[str, str], list[dict[str, Any]]] = {}
+        self._members: dict[tuple[str, str], set[str]] = {}
+        for row in rows:
+            self._rows.setdefault((row["struct"], row["member"]), []).append(row)
+            self._members.setdefault((row["struct"], row["key"].rpartition(".")[2]), set()).add(row["member"])
+        # A name ends in its unit, as the rows write that: _m_per_s is m/s.
+        units = {unit for row in rows for _, unit, _, _ in row["numbers"] if unit}
+        self._ends = {"_" + unit.lower().replace("/", "_per_"): unit for unit in units}
+
+    def unit(self, struct: str, member: str, comment: str) -> str:
+        """What follows the type in a docstring: ", m"; nothing for what is no number."""
+        if "float" not in self._types[struct, member]:
+            return ""
+        rows = self._rows.get((struct, member), [])
+        said = list(dict.fromkeys(row["numbers"][0][1] or "1" for row in rows))
+        if said not in ([], ["1"]):
+            return ", " + " or ".join(said)
+        ends = [end for end in self._ends if member.endswith(end)]
+        bracket = IN_BRACKETS.search(comment)
+        if ends:
+            return ", " + self._ends[max(ends, key=len)]
+        if not bracket and not rows:
+            raise SystemExit(f"python/tools/make_model.py: {struct}::{member} is a number without a row, and its name ends in no unit: its "
+                             "comment has to have it, as in [m] or [1]")
+        return ", " + (bracket[1] if bracket else "1")
+
+    def text(self, struct: str, member: str, comment: str) -> str:
+        """Its sentences: those of its rows, or else the comment's."""
+        rows = self._rows.get((struct, member), [])
+        ranges = [self._range(row["numbers"]) for row in rows]
+        apart = len(set(ranges)) > 1
+        said = [self._sentence(row) + (" " + values if apart else "") for row, values in zip(rows, ranges) if row["doc"]]
+        # What holds where nothing is said is another matter in code.
+        in_files = any(row["may_be_absent"] and "unless given" in row["doc"] for row in rows) and not self._types[struct, member].endswith(" | None")
+        if in_files:
+            said = [re.sub(r"(^|[;:] )(.)([^;:]* unless given)",
+                           lambda found: f"{found[1]}{'in' if found[1] else 'In'} files {found[2].lower()}{found[3]}", one) for one in said]
+        if comment and (in_files or not said):
+            said.append(sentence(comment))
+        if ranges and not apart:
+            said.append(ranges[0])
+        unit = self.unit(struct, member, comment)[2:]
+        return " ".join(said).replace(f" [{unit}]", "").strip()
+
+    def _sentence(self, row: dict[str, Any]) -> str:
+        doc = self._in_code(row["struct"], row["doc"]).removeprefix("... ")
+        if row["group"]:
+            doc = row["group"].partition(";")[0] + ": " + doc
+        if not row["tag"]:
+            return sentence(doc)
+        words = re.findall(r'"(\w+)"', self._types[row["struct"], row["tag"]])
+        return (", ".join(words[kind] for kind in row["kinds"]) if words else row["tag"]) + ": " + doc + ("" if doc.endswith(".") else ".")
+
+    def _range(self, numbers: list[tuple[str, str, float, float]]) -> str:
+        if len(numbers) == 1:
+            return f"From {short(numbers[0][2])} to {short(numbers[0][3])}."
+        axes = [f"{name.replace('_', ' ')} from {short(low)} to {short(high)} {unit}".strip() for name, unit, low, high in numbers]
+        return ", ".join(f"{letter}: {one}" for letter, one in zip("xy", axes)) + ("." if axes else "")
+
+    def _in_code(self, struct: str, doc: str) -> str:
+        """Keys of files that the sentence names, as Python calls them."""
+        def name(found: re.Match[str]) -> str:
+            word, ticks = found[2], found[1]
+            members = self._members.get((struct, word), set())
+            return f"{ticks}{next(iter(members))}{ticks}" if len(members) == 1 and (ticks or "_" in word) else found[0]
+
+        return re.sub(r"(?<![\w.`])(`?)([a-z][a-z0-9_]*)\1(?![\w`]|\.\w)", name, doc)
 
 
 def argument(type_name: str, value: object) -> tuple[str, str, str]:
@@ -143,13 +202,14 @@ def argument(type_name: str, value: object) -> tuple[str, str, str]:
     return type_name, repr(value), "{}"
 
 
-def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str, str]) -> str:
+def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str, str], rows: Rows) -> str:
     out = [f"class {name}({BASES.get(name, 'Record')}):"]
     doc = [wrapped(sentence(said.get("", "")) or f"What C++ calls {name}.", 4).strip(), "", "    Attributes", "    ----------"]
     for member, type_name, _ in members:
-        doc.append(f"    {member} : {type_name}{unit(name, member, type_name)}")
-        if said.get(member):
-            doc.append(wrapped(sentence(said[member]), 8))
+        comment = said.get(member, "")
+        doc.append(f"    {member} : {type_name}{rows.unit(name, member, comment)}")
+        if text := rows.text(name, member, comment):
+            doc.append(wrapped(text, 8))
     out.append('    """' + "\n".join(doc) + '\n    """')
     slots = "    __slots__ = (" + ", ".join(f'"{member}"' for member, _, _ in members) + ("," if len(members) == 1 else "") + ")"
     out.append(textwrap.fill(slots, 136, subsequent_indent=" " * 17, break_long_words=False))
@@ -165,13 +225,15 @@ def class_text(name: str, members: list[tuple[str, str, object]], said: dict[str
 
 
 def model_text() -> str:
+    import tofray_rows
     from tofray import _native
 
     said = comments()
     parts = [HEAD]
     structs = _native.structs()
+    rows = Rows(structs, tofray_rows.rows())
     for name, members in structs:
-        parts.append("\n\n" + class_text(name, members, said.get(name, {})) + "\n")
+        parts.append("\n\n" + class_text(name, members, said.get(name, {}), rows) + "\n")
     names = ", ".join(f'"{name}"' for name, _ in structs)
     parts.append("\n\n__all__ = [\n" + textwrap.fill(names, 100, initial_indent="    ", subsequent_indent="    ") + ",\n]\n")
     return "".join(parts)
