@@ -27,9 +27,9 @@ struct BudgetRequest {
 
 /// Shares of the range's variance by cause; their sum is 1.                                       [theory: eq. 4.33]
 struct VarianceShares {
-  double signal_shot = 0;   ///< shot noise of the camera's own light
-  double ambient_shot = 0;  ///< … of ambient light
-  double dark_shot = 0;     ///< … of dark charge
+  double signal_shot = 0;   ///< shot noise of the camera's illumination
+  double ambient_shot = 0;  ///< shot noise of ambient light
+  double dark_shot = 0;     ///< shot noise of dark charge
   double read = 0;          ///< reset and read noise of both taps
   double adc = 0;           ///< rounding to whole codes
   double suppression = 0;   ///< noise that background suppression adds
@@ -40,7 +40,7 @@ struct VarianceShares {
 struct BudgetFrequency {
   double modulation_frequency_hz = 0;
   double integration_time_s = 0;  ///< of one raw frame
-  double signal_e = 0;            ///< of the camera's own light
+  double signal_e = 0;            ///< electrons of the camera's illumination
   double ambient_e = 0;           ///< of ambient light
   double dark_e = 0;              ///< of dark current
   double amplitude_e = 0;         ///< Â, of the taps' difference as it is read
@@ -55,20 +55,20 @@ struct BudgetRow {
   double reflectivity = 0;             ///< of the wall
   std::string ambient;                 ///< name of the ambient light
   double exposure = 1;                 ///< longest lit integration time over the mode's own
-  double irradiance_w_m2 = 0;          ///< of the camera's own light on the wall
+  double irradiance_w_m2 = 0;          ///< irradiance of the wall by the camera's illumination
   double ambient_irradiance_w_m2 = 0;  ///< of ambient light on a surface that faces it, in the band of the filter
-  double power_w = 0;                  ///< of own light on the pixel, mean of a lit raw frame
+  double power_w = 0;                  ///< power on the pixel by the camera's illumination, mean of a lit raw frame
   double ambient_power_w = 0;          ///< of ambient light on the pixel
-  double signal_e = 0;                 ///< of own light, both taps together, in the raw frame that has most
+  double signal_e = 0;                 ///< electrons of the camera's illumination, both taps together, in the raw frame that has most
   double ambient_e = 0;                ///< of ambient light, likewise
   double dark_e = 0;                   ///< of dark current, likewise
   double contrast = 0;                 ///< mean of the modulation frequencies
   double amplitude_e = 0;              ///< mean of the modulation frequencies, as Depth::amplitude_e
   double tap_filling = 0;              ///< of the fuller tap of a lit raw frame, over the full well; may be above 1
   double adc_filling = 0;       ///< how far the code is from the middle, over the way to the nearer end of the valid codes; may be above 1
-  double sigma_m = 0;           ///< of the range, 1 sigma, before filters and means over frames; NaN: there is no range
-  double sigma_z_m = 0;         ///< the same of z
-  double noise_estimate_m = 0;  ///< what the camera says of the same by itself (Depth::noise_m); NaN likewise
+  double sigma_m = 0;           ///< noise of the range, 1 sigma, before filters and means over frames; NaN: there is no range
+  double sigma_z_m = 0;         ///< noise of z, 1 sigma, before filters and means over frames; NaN: there is no range
+  double noise_estimate_m = 0;  ///< the camera's estimate of sigma_m (Depth::noise_m); NaN: there is no range
   VarianceShares share;         ///< of sigma_m squared
   double exponent = 0;          ///< σ grows with the distance to this power: 1 where signal shot noise rules, 2 where all else does
   double wrong_cycle = 0;       ///< probability that the range is whole cycles off; NaN: no range   [theory: eq. 4.29, 4.30]
@@ -96,7 +96,7 @@ struct BudgetReach {
   static constexpr double everywhere_m = 1000;  ///< as nearest_m: it saturates at all distances
 };
 
-/// What does not hang on the distance.
+/// The part of a budget that does not depend on the distance.
 struct BudgetSummary {
   double ambiguity_range_m = 0;
   double low_signal_m = 0;            ///< the decoding's noise threshold
@@ -105,7 +105,7 @@ struct BudgetSummary {
   double mean_power_w = 0;            ///< that times the frame rate
   double radiant_intensity_w_sr = 0;  ///< toward what the pixel sees, mean of a lit raw frame, from 10 m
   double noise_at_1_m_m = 0;          ///< noise-equivalent distance: σ of a white wall (100 %) at 1 m in the dark; NaN: no range there
-  double correlated_e_per_j = 0;      ///< amplitude for each joule of own light on the pixel, mean of the modulation frequencies
+  double correlated_e_per_j = 0;      ///< amplitude per joule of the camera's illumination on the pixel, mean of the modulation frequencies
   double uncorrelated_e_per_j = 0;  ///< how much the taps' difference is off for each joule of light of that wavelength without modulation
   std::optional<double> rejection;  ///< background-light rejection ratio: the one over the other; none: nothing is off
 };

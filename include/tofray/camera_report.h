@@ -44,17 +44,17 @@ struct NoiseAtDistances {
   std::string ambient;           ///< name of the light that is not the camera's own
   double saturated_up_to_m = 0;  ///< from there on to the camera it saturates; 0: not from 5 cm on; everywhere_m: at all distances
   std::vector<NoiseAt> at;       ///< one for each distance
-  static constexpr double everywhere_m = 20;  ///< nobody looks for saturation farther than this
+  static constexpr double everywhere_m = 20;  ///< largest distance at which saturation is looked for
 };
 
 /// What a camera can do in its mode.
 struct CameraReport {
   int width = 0, height = 0;  ///< of the image
   double width_deg = 0;       ///< field of view between the outer edges of the outermost pixels, through the middle
-  double height_deg = 0;      ///< likewise
+  double height_deg = 0;      ///< field of view between the outer edges of the outermost rows, through the middle
   double diagonal_deg = 0;    ///< from corner to corner
-  double pixel_width_m = 0;   ///< that one pixel sees at 1 m on the axis
-  double pixel_height_m = 0;  ///< likewise
+  double pixel_width_m = 0;   ///< width that one pixel sees at 1 m on the axis
+  double pixel_height_m = 0;  ///< height that one pixel sees at 1 m on the axis
   double outside = 0;         ///< share of the pixels that are outside the lens model
   double unlit = 0;           ///< share of those that get less than a millionth of the brightest one's light of a wall at 1 m
   double darkest = 0;         ///< signal of the darkest lit pixel over the brightest one's, of that wall

@@ -45,9 +45,9 @@ struct DifferencesAt {
 /// Pixels with a flag in A or in B.
 struct DifferencesOfFlag {
   std::string flag;            ///< "filtered": a row of TOFRAY_FLAGS
-  std::int64_t only_in_a = 0;  ///< have a depth in A alone
-  std::int64_t only_in_b = 0;  ///< in B alone
-  Differences of;              ///< those that have a depth in both
+  std::int64_t only_in_a = 0;  ///< pixels that have a depth in A alone
+  std::int64_t only_in_b = 0;  ///< pixels that have a depth in B alone
+  Differences of;              ///< differences of the pixels that have a depth in both
 };
 
 /// A − B: of all pixels and of parts of them.

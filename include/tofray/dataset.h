@@ -39,7 +39,7 @@ class Dataset {
 
   /// The scene of a sample as YAML: rendering it makes the sample's bytes. @throws Error with line and column of the set's file, (bad_input) for a sample or view that is not there
   [[nodiscard]] std::string scene_yaml(std::uint64_t sample, std::uint64_t view = 0) const;
-  /// The same, read. @throws Error as load_scene()
+  /// The scene of a sample, read. @throws Error as load_scene()
   [[nodiscard]] Scene scene(std::uint64_t sample, std::uint64_t view = 0) const;
   /// What was drawn for it, in the order of the file.
   [[nodiscard]] std::vector<Drawn> drawn(std::uint64_t sample, std::uint64_t view = 0) const;

@@ -44,9 +44,9 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 /// The camera that a scene asks for: its profile, mode and overrides; `options` come on top.
 Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
-/// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
+/// A scene from its text. `source` stands for the file: messages name it, and what the text names is looked for beside it.
 Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root = {});
-/// As load_camera(), likewise.
+/// A camera from its profile's text, as load_camera() reads it. `source` stands for the file.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 
 /// A material that scenes may name without describing it, such as "skin" (docs/reference/materials.md).

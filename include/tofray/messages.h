@@ -69,7 +69,7 @@ class Messages {
   [[nodiscard]] std::vector<Message> of(const Frame& frame) const;
   /// All of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
   [[nodiscard]] std::vector<Message> of(const Frame& frame, const Scene& seen) const;
-  /// The same into memory that is used again.
+  /// All messages of a frame whose camera was placed from outside, into memory that is used again.
   void of(const Frame& frame, const Scene& seen, std::vector<Message>& into) const;
   /// Arrays that a frame needs, by their names in files.
   [[nodiscard]] std::vector<std::string> arrays() const;

@@ -23,7 +23,7 @@ struct PixelArrays {
   /// An array by its name in files, and an element of it in row-major order → its value; NaN where there is no such array or element.
   std::function<double(std::string_view name, std::size_t element)> at;
 };
-/// Those of a frame in memory.
+/// The arrays of a frame in memory.
 PixelArrays pixel_arrays(const Frame& frame);
 
 /// One pixel in one raw frame.
@@ -107,7 +107,7 @@ struct BounceShare {
 };
 
 /// One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone, so that frames with fewer bounces follow
-/// the beginnings of the same paths: what a bounce adds is the difference of two frames, without error of chance between them.
+/// the beginnings of the same paths: what a bounce adds is the difference of two frames, without Monte Carlo error between them.
 struct PixelBounces {
   std::vector<BounceShare> shares;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
   std::string unknown;              ///< why it is empty although light bounced

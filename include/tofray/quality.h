@@ -25,7 +25,7 @@ struct QualityPreset {
   std::string target;  ///< what the camera looks at, and in which light
   std::string stated;  ///< what the maker says of its camera; empty: nothing that could be cited
 };
-/// Those that have a name.
+/// Makers' conditions that have a name.
 const std::vector<QualityPreset>& quality_presets();
 
 /// What is measured, and against what.

@@ -134,12 +134,12 @@ struct Mesh {
   enum class Up { automatic, y, z, minus_y, none };
   enum class Play { still, once, loop };
   std::string file;              ///< empty if built in code
-  double scale = 1;              ///< of the file's numbers, to metres
+  double scale = 1;              ///< scale from the file's numbers to metres
   Up up = Up::automatic;         ///< the file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in PLY and STL;
                                  ///< none: the file's axes are the world's
   std::string animation;         ///< of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
-  std::optional<double> time_s;  ///< of that animation; none: as its nodes stand
-  Play play = Play::still;       ///< whether that animation goes on, from `time_s` (or its start) at t = 0
+  std::optional<double> time_s;  ///< time of that animation; none: the file's rest pose
+  Play play = Play::still;       ///< whether that animation plays, from `time_s` (or its start) at t = 0
   std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
   int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
   int guessed = 0;     ///< materials of the file whose visible colour stands for their reflectivity
@@ -180,7 +180,7 @@ struct Object {
   std::string where = {};                    ///< file:line:col for messages; empty if built in code
 };
 
-/// Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+/// Ambient light: all but the camera's illumination. One of level, illuminance and band irradiance says how much.
 struct Ambient {
   enum class Spectrum { none, sun_am15, equal_energy, table };
   enum class Quantity {
@@ -200,19 +200,19 @@ struct Ambient {
 /// shared between the two bins whose centres are nearest.
 struct TransientBins {
   int bins = 0;           ///< 0…1e6; 0: there are no histograms
-  double first_m = 0;     ///< 0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the camera
-  double width_m = 1e-3;  ///< 1e-6…1e6, of a bin
+  double first_m = 0;     ///< 0…1e6: path length at which the first bin begins, from the light by all surfaces to the camera
+  double width_m = 1e-3;  ///< 1e-6…1e6: width of a bin in path length
 };
 
-/// How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 + bounces of them. Which ways it takes is
-/// chosen by chance, but the same for all frames: it is no noise of the camera's. Arrays in place of the scene bounce nothing.
+/// Multipath: light that meets 1, 2 … 1 + bounces surfaces before it reaches the camera. Light paths are Monte Carlo samples, the same for
+/// all frames: their error is no noise of the camera. Arrays in place of the scene bounce nothing.
 struct Transport {
-  int bounces = 0;              ///< 0…64; 0: light comes straight back from the surface that the lights shine on
-  int samples = 16;             ///< 1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up
-  unsigned long long seed = 0;  ///< another one: other ways, the same light but for their error
-  int max_samples = 0;          ///< 0: as many as samples. Else a pixel goes on, twice as many again and again, up to these, until it knows
-  double path_noise_m = 0;      ///< its half path to this standard error; 0: to a fifth of its depth noise
-  bool smooth = false;          ///< light that bounces is smoothed over neighbours that see the same surface
+  int bounces = 0;              ///< 0…64: maximum number of bounces, surfaces beyond the first one; 0: no multipath
+  int samples = 16;             ///< 1…65536: light paths per pixel (Monte Carlo samples); an odd number is rounded up
+  unsigned long long seed = 0;  ///< seed of the light paths: another one draws other paths of the same light
+  int max_samples = 0;          ///< most light paths per pixel: their number is doubled until path_noise_m is reached; 0: samples
+  double path_noise_m = 0;      ///< standard error of the half path at which a pixel has enough paths; 0: a fifth of its depth noise
+  bool smooth = false;          ///< whether light that bounces is smoothed over neighbours that see the same surface
   TransientBins transient = {};
 };
 

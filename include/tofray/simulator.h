@@ -89,9 +89,9 @@ class Simulator {
   /// Frame i starts at i / frame_rate. Where Decoding::temporal_frames is more than 1, so many frames less one are computed before it, but for
   /// those that were computed last.
   [[nodiscard]] Frame frame(std::uint64_t index);
-  /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
+  /// Frame `index`, into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
-  /// The same of a frame with a seed of its own, or whose camera and objects are placed from outside: the bytes are those of placed_scene,
+  /// A frame with a seed of its own, or whose camera and objects are placed from outside: the bytes are those of placed_scene,
   /// at the request's time. The first request that places other objects than those before takes as long as a new simulator, and as much
   /// memory; the last four such sets stay. Then nothing is built anew: neither a mesh's hierarchy nor the camera.
   /// @throws Error (bad_input) for a pose that cannot be, an object that is not there or that two share the name of, and keyframes that do not
@@ -103,11 +103,11 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index, const Geometry& seen);
   void frame(std::uint64_t index, const Geometry& seen, Frame& into);
   /// Stages 3 and 4 of light that was computed elsewhere; nothing of the scene counts. Truth: power_w and signal_e, the rest is unknown.
-  /// @throws Error (bad_input) as above
+  /// @throws Error (bad_input) as for a Geometry
   [[nodiscard]] Frame frame(std::uint64_t index, const PixelLight& light);
   void frame(std::uint64_t index, const PixelLight& light, Frame& into);
-  /// The same of light by the length of its path. Truth: signal_e, the rest is unknown.
-  /// @throws Error (bad_input) as above, where there is no light source or no lit raw frame, and where light sources differ in waveform;
+  /// Stages 3 and 4 of light by the length of its path, computed elsewhere. Truth: signal_e, the rest is unknown.
+  /// @throws Error (bad_input) as for a Geometry, where there is no light source or no lit raw frame, and where light sources differ in waveform;
   /// (limit) for histograms that are too large
   [[nodiscard]] Frame frame(std::uint64_t index, const Transient& light);
   void frame(std::uint64_t index, const Transient& light, Frame& into);
@@ -119,8 +119,8 @@ class Simulator {
   /// @throws Error for a request that cannot be, as frame: before the first frame
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
   void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
-  /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.
-  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as above, and for requests
+  /// Many frames as frames() makes them, left in the GPU's memory, which `into` holds and uses again where it is large enough.
+  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as frames(), and for requests
   /// that do not all place the same objects
   void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
   void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);

@@ -33,10 +33,10 @@ struct SweepAxis {
 /// @param inputs  the scene of which it is a key; a key of a profile may leave "camera." away
 /// @throws Error (bad_input) for a key that is not there, with the nearest ones, and for a value that it cannot have
 SweepAxis sweep_axis(const std::string& text, const InputRequest& inputs);
-/// The same of values that are there one by one. @throws Error as above
+/// An axis of a key and its values, one by one. @throws Error as the function of a text
 SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& values, const InputRequest& inputs);
 
-/// The same of numbers in SI units, of a key whose value is a number. @throws Error as above
+/// An axis of a key and its numbers in SI units, where the key's value is a number. @throws Error as the function of a text
 SweepAxis sweep_axis_of_numbers(const std::string& key, const std::vector<double>& numbers, const InputRequest& inputs);
 
 /// A number that a cell has of each region.
@@ -70,8 +70,8 @@ struct Sweep {
   std::uint64_t repeat = 1;          ///< frames of each cell
   bool interrupted = false;          ///< FrameProgress::stop was set: values mean nothing
   std::uint64_t traced = 0;          ///< how often frames began with rays
-  std::uint64_t from_light = 0;      ///< … with light that was there
-  std::uint64_t from_raw = 0;        ///< … with raw frames that were there
+  std::uint64_t from_light = 0;      ///< how often frames began with light that was there
+  std::uint64_t from_raw = 0;        ///< how often frames began with raw frames that were there
   double seconds = 0;                ///< that it took
   std::vector<InputFile> files;      ///< that the first cell was made of
   RanOn ran_on;

@@ -113,7 +113,7 @@ TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::W
   }
 }
 
-/// … or summed already: of each light the power, and Σ power·e^{imφ}.
+/// Light of arrays that is summed already: of each light the power, and Σ power·e^{imφ}.
 template <class F>
 TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
                              flow::Light<F>& light, F& power) {

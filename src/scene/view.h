@@ -45,7 +45,7 @@ struct AlongsOf {
 using Bodies = shape::ByShape<BodiesOf>;
 /// One group seen from one point: the camera or a light.
 using Forms = shape::ByShape<FormsOf>;
-/// … and for parallel light.
+/// One group as parallel light sees it.
 using Alongs = shape::ByShape<AlongsOf>;
 
 /// Where a group's forms are.

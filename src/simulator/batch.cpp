@@ -117,7 +117,7 @@ void Simulator::Impl::frame_by_batch(const FrameRequest& request, Frame& into) {
       1, [&](std::uint64_t) { return request; }, take, taken);
 }
 
-/// Where a frame hangs on those before, one follows the other.
+/// Where a frame depends on those before, one follows the other.
 void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
   for (std::uint64_t i = 0; i < count; ++i) check_over_time(request(i));
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -136,7 +136,7 @@ struct SideOfSession {
   Frame frame, draft_frame;
   std::uint32_t sequence = 0;
   bool shown = false;    ///< the frame of the state has been published
-  bool drafted = false;  ///< … or a draft of it
+  bool drafted = false;  ///< a draft of the state's frame has been published
   /// How long a frame takes; a draft comes before a long one.
   double frame_ms = std::numeric_limits<double>::infinity();
 };

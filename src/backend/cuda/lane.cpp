@@ -218,7 +218,7 @@ void Lane::launch_all() {
   });
 }
 
-/// The same on the host as kernels do it on the device, whose lenses the host cannot read.
+/// A step's own arguments, on the host as kernels set them on the device, whose lenses the host cannot read.
 void Lane::take_step(const pipeline::Step& step, FrameArguments& arguments) const {
   if (own_ != Own::number) return;
   const camera::SubpixelView there = arguments.setup.subpixel;

@@ -49,7 +49,7 @@ class Lane {
   /// Hands all frames to the GPU and does not wait.
   /// @param output  device memory of slab().bytes() each; null: the lane's own, from where they go to host memory
   void submit(void* output = nullptr);
-  /// The same for a single frame as a graph, made anew only where arguments have changed.
+  /// Hands a single frame to the GPU as a graph, made anew only where arguments have changed.
   void submit_graph();
   void wait();
 
