@@ -53,7 +53,7 @@ class ErrorCauses {
   ErrorCauses& operator=(ErrorCauses&&) noexcept;
 
   /// Simulates one frame more. One that SimulatorOptions::progress stopped is simulated again by the next
-  /// call; whoever set FrameProgress::stop takes it back before.
+  /// call; the caller that set FrameProgress::stop resets it before.
   /// @return whether more are to come
   bool step();
   /// Good once `step` has said that no more are to come.

@@ -28,7 +28,7 @@ enum class Backend {
   cuda,  ///< a GPU, or an error that says why not
 };
 
-/// How far the processor is with a frame, for whoever waits for it: read and written from any thread.
+/// Progress of the processor within a frame: read and written from any thread.
 struct FrameProgress {
   std::atomic<std::int64_t> done{0}, total{0};  ///< in rays, roughly; 0 of 0 before the first frame, and where a GPU computes
   std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing

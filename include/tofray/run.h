@@ -92,7 +92,7 @@ struct RunResult {
   std::vector<std::pair<std::string, double>> timings_s;  ///< by stage: prepare, simulate, write
 };
 
-/// Whoever watches a run. All of it may be left empty.
+/// Callbacks of a run. All of them may be left empty.
 struct RunWatch {
   FrameProgress* progress = nullptr;               ///< of the frame under way; its `stop` ends the run with the last whole frame
   std::function<void(const Remark&)> remark = {};  ///< told each as soon as it is known

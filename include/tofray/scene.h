@@ -53,8 +53,8 @@ struct Material {
   /// How a mesh's normal leans from place to place: its parts along growing u, against growing v, and along the normal that the mesh has,
   /// −1…1, the last one above 0, of length 0.5…1.5. None: it does not.
   std::shared_ptr<const VectorMap> normals = {};
-  /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for those
-  /// who look; `map` scales k_d, too. None: they are the same everywhere.
+  /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for
+  /// callers; `map` scales k_d, too. None: they are the same everywhere.
   std::shared_ptr<const VectorMap> finish = {};
   /// Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light and camera look through the rest. Texels of the
   /// other pictures that lie where it is less count in no mean. None: everywhere.

@@ -12,7 +12,7 @@
 /// Data sets in files: a plan, and shards of samples, which any number of processes and machines make together. As load.h, of libtofray_files.
 ///
 /// The plan is the set; shards are what has been computed of it. A shard is a tar of plain .npy and .json files; a record beside it exists exactly when it is
-/// complete, and nothing else is state: whoever is killed, or does the same shard twice, leaves the same bytes.
+/// complete, and nothing else is state: a process that is killed, or makes the same shard twice, leaves the same bytes.
 namespace tofray {
 
 /// What a set's plan is made of.
@@ -79,7 +79,7 @@ struct ShardRunResult {
   bool interrupted = false;
 };
 
-/// Whoever watches shards being made or read. All of it may be left empty.
+/// Callbacks while shards are made or read. All of them may be left empty.
 struct ShardWatch {
   std::function<void(std::uint64_t done, std::uint64_t total)> samples =
       {};  ///< of the shards that are to be made; of verify_shards(): shards
@@ -139,7 +139,7 @@ struct MergeResult {
       files;  ///< that were written: SHA256SUMS, statistics.json, wids.json, card.md, croissant.json, preview.html, index/…
 };
 
-/// Sums up a set that is complete: index, statistics, SHA256SUMS and a list for the webdataset library. The same bytes whoever made the shards.
+/// Sums up a set that is complete: index, statistics, SHA256SUMS and a list for the webdataset library. The same bytes whichever processes made the shards.
 /// @param partial  of the shards that are there
 /// @throws Error (bad_input) where shards are missing, or two of them read different files of one name
 MergeResult merge_shards(const std::filesystem::path& folder, bool partial = false);

@@ -84,7 +84,7 @@ struct Sweep {
   [[nodiscard]] double value(std::uint64_t cell, std::size_t region, std::size_t metric) const;
 };
 
-/// Whoever watches a sweep. All of it may be left empty; no two are called at once.
+/// Callbacks of a sweep. All of them may be left empty; no two are called at once.
 struct SweepWatch {
   FrameProgress* progress = nullptr;                                 ///< its `stop` ends the sweep
   std::function<void(const Remark&)> remark = {};                    ///< told what is odd about the first cell's inputs

@@ -21,7 +21,7 @@ struct LightImage {
   float* indirect;         ///< light that has met more than one surface, in the shape of `values`; null where light does not bounce
   float* indirect_before;  ///< `indirect` before the last sample was added
   float*
-      guide;  ///< [7][height][width] position [m], normal and reflectivity of what a pixel sees, 0: nothing; or null: nobody compares neighbours
+      guide;  ///< [7][height][width] position [m], normal and reflectivity of what a pixel sees, 0: nothing; or null: neighbours are not compared
   float* error;           ///< [modulation][height][width] paths·(error across Ẑ)² [e⁻²], as two halves of the paths show it; or null
   float* noise;           ///< [modulation][height][width] variance across Ẑ [e⁻²], of many pixels together; or null
   float* smoothed_noise;  ///< `noise` once the light is smoothed; or null

@@ -22,7 +22,7 @@ struct Spot {
 /// Where a member lies.
 const void* address(const Slot& slot);
 
-/// Who is told of faults, and knows what the user calls a member: a place in a file, or a path in code.
+/// Receiver of faults, which knows what the user calls a member: a place in a file, or a path in code.
 class Complaints {
  public:
   virtual ~Complaints() = default;

@@ -197,7 +197,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
     const flow::Ray<F> ray_copy = ray;
     const flow::Hit<F> hit_copy = hit;
     const flow::Surface<F> copy = surface;
-    look_closer(s, job.out, p, ray_copy, hit_copy, copy);
+    store_surface_truth(s, job.out, p, ray_copy, hit_copy, copy);
   }
   return true;
 }

@@ -20,7 +20,7 @@ void prepare(Frame& frame, const camera::ImageCamera& camera, const SimulatorOpt
 void prepare(Depth& depth, const camera::ImageCamera& camera, const SimulatorOptions& options);
 /// Whether an array is asked for by its name.
 bool asks_for(const SimulatorOptions& options, std::string_view array);
-/// The last stage that any of the arrays of a frame comes from: nothing is computed that nobody sees.
+/// The last stage that any of the arrays of a frame comes from: stages behind it are not computed.
 Stage last_stage_of(const camera::ImageCamera& camera, const SimulatorOptions& options, const Transport& transport);
 /// Where the arrays are that have a size, of the stages up to `last`.
 flow::FrameView view_of(Frame& frame, Stage last);

@@ -105,7 +105,8 @@ struct Simulator::Impl {
   void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
   void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
   [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;
-  std::uint64_t fill(backend::gpu::Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request);
+  std::uint64_t fill(backend::gpu::FrameStream& stream, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count,
+                     const Request& request);
 };
 
 /// Frames in the memory of one GPU.
