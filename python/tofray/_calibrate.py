@@ -301,7 +301,7 @@ def calibrate_temperature(camera: Camera, walls: Iterable[tuple[float, Iterable[
     Returns
     -------
     SpecimenCalibration
-        The same, with the drift.
+        The specimen, with its drift.
 
     Raises
     ------
