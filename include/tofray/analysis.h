@@ -18,7 +18,7 @@ namespace tofray {
 struct ObjectInView {
   int object = 0;                    ///< index in Scene::objects
   std::string name;                  ///< as messages call it: "objects.2 (ball)"
-  std::int64_t pixels = 0;           ///< that see it
+  std::int64_t pixels = 0;           ///< pixels that see it
   std::optional<double> nearest_m;   ///< range of the nearest pixel that sees it; none where no pixel does
   std::optional<double> farthest_m;  ///< range of the farthest pixel that sees it; none where no pixel does
   bool endless = false;              ///< a plane
@@ -32,7 +32,7 @@ struct ObjectInView {
 struct ObjectPlace {
   std::string name;        ///< Object::name
   std::string class_name;  ///< Object::class_name
-  Vec3 position{};         ///< in the world [m]
+  Vec3 position{};         ///< position in the world [m]
   Quaternion rotation{0, 0, 0, 1};
   bool endless = false;  ///< a plane
   Vec3 low{}, high{};    ///< its box in the world [m]; of a plane −inf and inf
@@ -65,12 +65,12 @@ struct SceneFinding {
 
 /// What the camera sees of the scene at one time.
 struct SceneReport {
-  double time_s = 0;                  ///< of the scene
-  std::int64_t pixels = 0;            ///< of the image
+  double time_s = 0;                  ///< time of the scene [s]
+  std::int64_t pixels = 0;            ///< pixels of the image
   std::int64_t outside_lens = 0;      ///< pixels without a ray
   std::int64_t no_surface = 0;        ///< pixels whose ray hits nothing
   std::int64_t beyond_reach = 0;      ///< pixels that see what is farther than the ambiguity range
-  double ambiguity_range_m = 0;       ///< of the camera's mode; 0 where no raw frame is lit
+  double ambiguity_range_m = 0;       ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
   std::optional<double> nearest_m;    ///< least range of all pixels; none where no ray hits anything
   std::optional<double> farthest_m;   ///< largest range of all pixels; none where no ray hits anything
   std::vector<ObjectInView> objects;  ///< one for each of Scene::objects
@@ -105,8 +105,8 @@ const char* no_depth_name(NoDepth reason);
 
 /// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
 struct InvalidPixels {
-  std::int64_t pixels = 0;                ///< of the image
-  std::int64_t valid = 0;                 ///< of them, those that have a depth
+  std::int64_t pixels = 0;                ///< pixels of the image
+  std::int64_t valid = 0;                 ///< pixels that have a depth
   std::int64_t wrapped = 0;               ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
   std::int64_t valid_on_wrong_cycle = 0;  ///< valid ones whose range is off by more than half a cycle of the highest modulation frequency
   std::int64_t saturated = 0;             ///< a well or the ADC is full
@@ -120,8 +120,8 @@ struct InvalidPixels {
   std::int64_t outside_lens = 0;          ///< the lens model has no ray there
   std::int64_t inconsistent_phases = 0;   ///< rejected for inconsistent phases
   std::int64_t inconsistent_frequencies = 0;  ///< rejected for inconsistent frequencies
-  double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
-  std::vector<double> ranges_m;               ///< that of each modulation frequency alone
+  double ambiguity_range_m = 0;               ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
+  std::vector<double> ranges_m;               ///< ambiguity range of each modulation frequency alone
 
   /// Number of pixels of one reason.
   [[nodiscard]] std::int64_t count(NoDepth reason) const;

@@ -20,8 +20,8 @@ Scene load_scene(const std::string& file_or_name, const std::string& root = {});
 
 /// What a user means by a word that is both a built-in name and, with or without .yaml or .yml, a file of the working directory.
 struct NameChoice {
-  std::string name;  ///< for load_scene() or load_camera(): the file, or what was typed
-  std::string note;  ///< for the user: that the file is taken, and not what is built in; empty where there is no choice
+  std::string name;  ///< name for load_scene() or load_camera(): the file, or what was typed
+  std::string note;  ///< note for the user: the file is taken, and not what is built in; empty where there is no choice
 };
 /// The file counts more than a built-in scene of its name: so the command line and Python take what is typed.
 NameChoice choose_scene(const std::string& typed);

@@ -31,7 +31,7 @@ struct ChainRawFrame {
   bool lit = false;
   double modulation_frequency_hz = 0, reference_phase_rad = 0, integration_time_s = 0;
   double signal_e = 0;                  ///< ground truth S, both taps
-  double direct_e = 0, indirect_e = 0;  ///< by one surface and by several, before the lens scatters them
+  double direct_e = 0, indirect_e = 0;  ///< electrons by one surface and by several, before the lens scatters them
   double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
   double path_noise_m = 0;              ///< the standard error of that                         [theory: eq. 7.13]
   double tap_a_e = 0, tap_b_e = 0;
@@ -65,7 +65,7 @@ struct PixelChain {
   // ground truth
   std::int64_t object = -1;
   double true_range_m = 0, true_z_m = 0, reflectivity = 0, incidence_rad = 0;
-  double object_share = 0, mixed = 0;  ///< of samples within the pixel
+  double object_share = 0, mixed = 0;  ///< truth of samples within the pixel
   std::array<double, 3> position_m{}, normal{};
   double irradiance_w_m2 = 0, radiance_w_m2_sr = 0, power_w = 0;
   // measured
@@ -101,8 +101,8 @@ std::vector<std::vector<double>> correlation_curves(const PixelChain& chain, con
 /// Light that came by way of 1 + b surfaces, b = first … last.
 struct BounceShare {
   int first = 0, last = 0;
-  double share = 0;                 ///< of the electrons of all lit raw frames, 0 … 1
-  std::vector<double> electrons;    ///< by raw frame, before the lens scatters them [e]
+  double share = 0;                 ///< share of the electrons of all lit raw frames, 0 … 1
+  std::vector<double> electrons;    ///< electrons by raw frame, before the lens scatters them [e]
   std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]  [theory: eq. 7.8]
 };
 

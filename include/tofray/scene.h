@@ -137,22 +137,22 @@ struct Mesh {
   double scale = 1;              ///< scale from the file's numbers to metres
   Up up = Up::automatic;         ///< the file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in PLY and STL;
                                  ///< none: the file's axes are the world's
-  std::string animation;         ///< of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
+  std::string animation;         ///< animation of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
   std::optional<double> time_s;  ///< time of that animation; none: the file's rest pose
   Play play = Play::still;       ///< whether that animation plays, from `time_s` (or its start) at t = 0
-  std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
+  std::string sha256;  ///< SHA-256 of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
   int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
   int guessed = 0;     ///< materials of the file whose visible colour stands for their reflectivity
   std::vector<std::string> notices;               ///< sentences: what else of the file is left out, or mended
-  std::shared_ptr<const TriangleMesh> triangles;  ///< what is seen: already turned and scaled; objects may share it
-  std::shared_ptr<const MeshMotion> motion;       ///< how it changes its shape; none: it does not
+  std::shared_ptr<const TriangleMesh> triangles;  ///< the triangles, turned and scaled already; objects may share them
+  std::shared_ptr<const MeshMotion> motion;       ///< motion of the vertices; none: the mesh keeps its shape
 };
 
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation {
   Vec3 axis{0, 0, 1};
   double angle_rad = 0;
-  std::optional<Quaternion> quaternion = {};  ///< in place of axis and angle: x, y, z, w
+  std::optional<Quaternion> quaternion = {};  ///< rotation in place of axis and angle: x, y, z, w
 };
 
 /// Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly: where both rotations are about the same
@@ -174,9 +174,9 @@ struct Object {
   Rotation rotation{};
   Vec3 velocity_m_per_s{0, 0, 0};
   Vec3 angular_velocity_rad_per_s{0, 0, 0};  ///< its axis, in the world, times how fast it turns by the right-hand rule
-  std::vector<Keyframe> keyframes = {};      ///< in place of position, rotation and both velocities; ascending in time
-  std::string class_name = {};               ///< what kind of thing it is, for Truth::class_id; empty: none
-  std::string key = {};                      ///< how its file addresses it, e.g. "objects.2"; empty if built in code
+  std::vector<Keyframe> keyframes = {};      ///< poses in place of position, rotation and both velocities; ascending in time
+  std::string class_name = {};               ///< class of the object, for Truth::class_id; empty: none
+  std::string key = {};                      ///< address in its file, e.g. "objects.2"; empty if built in code
   std::string where = {};                    ///< file:line:col for messages; empty if built in code
 };
 
@@ -190,7 +190,7 @@ struct Ambient {
   };
   Spectrum spectrum = Spectrum::none;
   Quantity quantity = Quantity::level;
-  double amount = 0;                              ///< in the quantity's unit
+  double amount = 0;                              ///< amount in the quantity's unit
   std::vector<double> table_wavelength_m;         ///< spectrum `table`: ascending
   std::vector<double> table_irradiance_w_per_m3;  ///< spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3)
   std::optional<Vec3> direction;                  ///< direction in which the light travels (a sun); none: uniform from everywhere
@@ -221,7 +221,7 @@ struct Pose {
   Vec3 position{0, 0, 0};
   Vec3 look_at{0, 0, 1};                      ///< a point on the optical axis
   Vec3 up{0, -1, 0};                          ///< direction in the world that is up in the image
-  std::optional<Quaternion> quaternion = {};  ///< from the camera's frame to the world's, as x, y, z, w; in place of look_at and up
+  std::optional<Quaternion> quaternion = {};  ///< rotation from camera to world, as x, y, z, w; in place of look_at and up
 };
 
 /// Where the camera stands at a time. Between two of them its position changes evenly. Where one has a quaternion it turns evenly, the
@@ -245,15 +245,15 @@ struct CameraChoice {
   std::string profile = "pico-flexx";  ///< a built-in name or a file
   std::string mode;                    ///< empty: the profile's first
   Pose pose;
-  std::vector<CameraKeyframe> keyframes = {};  ///< in place of the pose; ascending in time
+  std::vector<CameraKeyframe> keyframes = {};  ///< poses in place of the pose; ascending in time
   std::vector<Override> overrides = {};
   std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 
 /// A file that a scene was read from, beside its own and those of meshes.
 struct SceneFile {
-  std::string file;    ///< as the scene names it
-  std::string sha256;  ///< of its bytes, as hexadecimal digits
+  std::string file;    ///< name in the scene
+  std::string sha256;  ///< SHA-256 of its bytes, as hexadecimal digits
 };
 
 /// All that is seen, in which light, and which camera looks at it.
@@ -269,7 +269,7 @@ struct Scene {
   /// The world's axis that is up. In files, what is not said follows from it: where a camera looks, what is up in its image, how the axes of
   /// meshes are turned. In code nothing does.
   Up world_up = Up::minus_y;
-  std::vector<SceneFile> files = {};  ///< of keyframes
+  std::vector<SceneFile> files = {};  ///< files of keyframes
   /// Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the order of their letters.
   std::vector<std::string> classes = {};
 };

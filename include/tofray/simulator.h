@@ -30,29 +30,29 @@ struct Placement {
 struct PlacedObject {
   /// Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file has several materials is one.
   std::string name;
-  Placement start = {};                  ///< at the frame's start
+  Placement start = {};                  ///< placement at the frame's start
   std::optional<Placement> end = {};     ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
-  std::vector<Keyframe> keyframes = {};  ///< in place of both, by the scene's time, ascending
+  std::vector<Keyframe> keyframes = {};  ///< placements in place of both, by the scene's time, ascending
 };
 
 /// Which frame. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;  ///< chooses the noise; starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
-  std::optional<Pose> pose = {};      ///< of the camera, at the frame's start
+  std::optional<Pose> pose = {};      ///< pose of the camera at the frame's start
   std::optional<Pose> pose_end = {};  ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
-  std::vector<CameraKeyframe> camera = {};  ///< in place of both poses, by the scene's time, ascending
+  std::vector<CameraKeyframe> camera = {};  ///< poses in place of both poses, by the scene's time, ascending
   std::vector<PlacedObject> objects = {};   ///< those that are placed from outside; the others move as the scene says
   std::optional<double> start_time_s = {};  ///< -1e6…1e6: when it starts, in place of index / frame_rate
 };
 
 /// One step of how a frame is computed: a pass over all of its pixels, before the next one begins.
 struct PlanStep {
-  std::string name;         ///< of the pass: "from_rays", "bounces", "range_filter" …
+  std::string name;         ///< name of the pass: "from_rays", "bounces", "range_filter" …
   std::string does;         ///< what it does, in a few words
   std::string part;         ///< "ground truth", "sample 2 of 9", "paths, step 1": what of it, where it is done in parts
   std::string over;         ///< "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once
-  std::int64_t pieces = 0;  ///< how many of these there are
+  std::int64_t pieces = 0;  ///< number of pieces
 };
 
 /// Frames that stay in a GPU's memory.
