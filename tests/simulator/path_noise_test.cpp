@@ -105,7 +105,7 @@ TEST(path_noise, is_what_frames_of_other_seeds_are_off_by) {
   }
 }
 
-// … of smoothed light, too, whose error is smaller and whose bias is less than what it takes away.
+// The error of smoothed light, which is smaller and whose bias is less than what it takes away.
 TEST(path_noise, is_that_of_smoothed_light) {
   Scene scene = walls_and_card();
   scene.transport.bounces = 3, scene.transport.samples = 16;
