@@ -298,8 +298,8 @@ struct AutoExposure {
   double speed = 0;       ///< 0…1: share of the way to the aim that each frame takes, by the logarithm; 0: integration times are fixed
   double aim = 0.7;       ///< share of the valid codes, and of the full well, that bright pixels are to reach
   double bright = 0.99;   ///< quantile of all pixels that counts as bright
-  double shortest_s = 0;  ///< shortest lit integration time; 0: Camera::min_integration_time_s
-  double longest_s = 0;   ///< longest lit integration time; 0: that of the mode
+  double shortest_s = 0;  ///< lower limit of the longest lit integration time; 0: Camera::min_integration_time_s
+  double longest_s = 0;   ///< upper limit of the longest lit integration time; 0: that of the mode
 };
 
 /// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
