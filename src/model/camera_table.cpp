@@ -429,7 +429,8 @@ const Table& table_of<AutoExposure>() {
       number<&AutoExposure::bright>("bright", {fraction, {0, 1}, "99 %"}, "quantile of all pixels that counts as bright"),
       number<&AutoExposure::shortest_s>("shortest", {time, {0, 1e3}, "100 us"},
                                         "lower limit of the longest lit integration time; 0: timing.min_integration_time"),
-      number<&AutoExposure::longest_s>("longest", {time, {0, 1e3}, "2000 us"}, "upper limit of the longest lit integration time; 0: that of the mode"));
+      number<&AutoExposure::longest_s>("longest", {time, {0, 1e3}, "2000 us"},
+                                       "upper limit of the longest lit integration time; 0: that of the mode"));
   return rows;
 }
 
