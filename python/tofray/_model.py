@@ -48,7 +48,7 @@ class PixelMask(Record):
     kind : Literal["square", "table"]
         Square: evenly in a square of area fill_factor·pitch² in its middle.
     samples : list[float], 1
-        Table: of the whole pixel, rows from its top on, columns from its left on, any unit.
+        Table: sensitivity over the whole pixel, any unit; rows from the top, columns from the left.
     columns : int
     rows : int
     """
@@ -119,12 +119,12 @@ class Scatter(Record):
     share : float, 1
         0…1 of the light that is scattered.
     sigma_px : list[float], px
-        Gaussians: width of each.
+        Gaussians: standard deviation of each.
     weights : list[float], 1
-        Gaussians: how much of it each takes, any unit; empty: all alike.
+        Gaussians: weight of each, any unit; empty: equal.
     kernel : list[float], 1
-        Kernel: how much goes where, rows from above on, columns from the left on; odd numbers of
-        both, any unit. The middle is the pixel itself.
+        Kernel: weights, any unit, rows from the top, columns from the left; odd numbers of both.
+        The middle is the pixel itself.
     columns : int
     rows : int
     """
@@ -247,7 +247,7 @@ class Lens(Record):
 
 
 class Filter(Record):
-    """Optical filter before the sensor, seen by ambient light only (the camera's own light has
+    """Optical filter before the sensor, for ambient light only (the camera's illumination has
     Lens::transmission).
 
     Attributes
@@ -305,7 +305,7 @@ class Pattern(Record):
         The grid covers ±this across its columns (edges of the outer cells); beyond, the light is
         dark. Of a flat top, 0 takes its width, where the light has fallen to nothing (2⁻²⁵⁶).
     half_range_y_rad : float, rad
-        The same across its rows; 0: the height.
+        Half range across its rows; 0: the height.
     samples : list[float], 1
         [rows][columns], any unit.
     """
@@ -359,18 +359,18 @@ class Waveform(Record):
     rise_time_s : float, s
         Linear edge, 0 to 100 %; of a rectangular pulse both.
     bandwidth_hz : float, Hz
-        The light source's own single pole; 0: none.
+        Single pole of the light source; 0: none.
     jitter_s : float, s
         Gaussian, 1 sigma.
     harmonics : int
-        How many odd harmonics are kept (1,3,5,7); a sine has one.
+        Number of odd harmonics that are kept (1,3,5,7); a sine has one.
     modulation_depth : float, 1
         Sine: d of the light 1 + d·cos; it has no duty and no edges.
     correlation : list[float], 1
         Measured: correlation D(τ)/S at reference phases over one period, φ = 0; its Fourier
         transform gives a_m, ψ_m.
     fall_time_s : float, s
-        Trapezoid: the other edge.
+        Trapezoid: linear edge at the pulse's end.
     sigma_s : float, s
         Gaussian: width of the pulse, 1 sigma.
     emission : list[float], 1
@@ -437,7 +437,7 @@ class Area(Record):
     width_m : float, m
         Rectangle: toward the camera's x (of an axis along x: its y).
     height_m : float, m
-        Across that.
+        Rectangle: across width and axis.
     points : int
     """
     __slots__ = ("kind", "radius_m", "width_m", "height_m", "points")
@@ -474,13 +474,13 @@ class Illumination(Record):
     power_w : float, W
         Optical, of a lit raw frame, mean over the modulation period.
     ring_leds : int
-        So many sources, evenly on a circle about `position`, across `axis`; they share the power.
+        Number of sources, evenly on a circle about `position`, across `axis`; they share the power.
     ring_radius_m : float, m
-        Of that circle; the first stands toward the camera's x (of an axis along x: its y).
+        Radius of the circle; the first source is toward the camera's x (of an axis along x: its y).
     area : Area
-        Of each; its middle is where a point would be.
+        Area of each source; its middle is where a point would be.
     pattern : Pattern
-        Of each point.
+        Pattern of each point.
     waveform : Waveform
     """
     __slots__ = ("position", "axis", "illumination_wavelength_m", "power_w", "ring_leds", "ring_radius_m", "area", "pattern",
@@ -533,24 +533,25 @@ class Pixel(Record):
     bandwidth_hz : float, Hz
         Single pole of the gate; 0: none.
     full_well_e : float, e
+        Full-well capacity of a tap.
     read_noise_e : float, e
-        Reset + read, 1 sigma; reset noise alone may stand in reset_noise_e.
+        Noise of reset and readout per tap, 1 sigma; reset noise alone may stand in reset_noise_e.
     column_noise_e : float, e
-        Of A−B, the same for all pixels of a column in one raw frame, anew in each, 1 sigma.
+        Noise of A−B that all pixels of a column share, drawn for each raw frame, 1 sigma.
     row_noise_e : float, e
-        The same of a row.
+        Noise of A−B that all pixels of a row share, drawn for each raw frame, 1 sigma.
     dark_current_e_per_s : float, e/s
-        At Temperature::reference_celsius.
+        Dark current per tap at Temperature::reference_celsius.
     dark_current_doubling_k : float, K
-        It doubles with every so many kelvin above that; 0: the same at all temperatures.
+        Temperature rise that doubles the dark current; 0: it is constant.
     tap_gain_mismatch : float, 1
         G: tap A collects 1 + g/2 of what it should, tap B 1 − g/2.
     tap_offset_mismatch_e : float, e
-        What A has more than B before any charge comes.
+        Offset of tap A less that of tap B in each raw frame.
     crosstalk_left_right : float, 1
-        Share of a pixel's charge that its left neighbour collects, and the right one as much.
+        Share of a pixel's charge that each of the neighbours left and right collects.
     crosstalk_up_down : float, 1
-        The same of the neighbours above and below.
+        Share of a pixel's charge that each of the neighbours above and below collects.
     nonlinearity : Curve
         Charge of a tap [e⁻] → charge that is read of it; none: the same.
     prnu : float, 1
@@ -562,7 +563,7 @@ class Pixel(Record):
     phase_offset_rad : float, rad
         Fixed-pattern phase per pixel, another one at each modulation frequency, 1 sigma.
     pattern_seed : int
-        Which specimen of the sensor: seed of the patterns above.
+        Seed of the fixed patterns: which specimen of the sensor.
     suppression_threshold_e : float, e
         Background suppression: when the smaller tap reaches the threshold, the excess is taken off
         both taps, at most `budget`. Each tap's removed charge x adds a variance of noise_factor² ·
@@ -570,13 +571,15 @@ class Pixel(Record):
     suppression_budget_e : float, e
     suppression_noise_factor : float, 1
     reset_noise_e : float, e
-        KTC noise of a tap at Temperature::reference_celsius, 1 sigma, beside read_noise_e.
+        Reset (kTC) noise per tap at Temperature::reference_celsius, 1 sigma, in addition to
+        read_noise_e.
     cancels_reset_noise : bool
         Correlated double sampling: no reset noise, but each tap is read twice.
     blooming_share : float, 1
-        Of the charge beyond a full well, what each of the four neighbours gets; 0: none.
+        Share of the charge above full well that each of the four neighbours receives; 0: none.
     blooming_limit_e : float, e
-        Who gets more than this in a lit raw frame is flagged as saturated.
+        A pixel that receives more than this from its neighbours in a lit raw frame is flagged as
+        saturated.
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
@@ -684,7 +687,7 @@ class Adc(Record):
         Codes outside valid_min…valid_max flag the pixel as saturated.
     valid_max : int
     gains : list[float], 1
-        What modes may choose from; the step of a mode is step_e_per_dn over its gain.
+        Gains that modes may choose from; the step of a mode is step_e_per_dn over its gain.
     """
     __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max", "gains")
     bits: int
@@ -724,7 +727,7 @@ class RawFrame(Record):
         Τ.
     integration_time_s : float, s
     reference_delay_s : float, s
-        The light is later by this against the gate: adds 2π·f·delay to τ.
+        Delay of the light against the gate: adds 2π·f·delay to τ.
     """
     __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
     lit: bool
@@ -759,7 +762,7 @@ class Mode(Record):
     frame_rate_hz : float, Hz
     sequence : list[RawFrame]
     gain : float, 1
-        Of the amplifier before the ADC: one of Adc::gains, or 1.
+        Gain of the amplifier before the ADC: one of Adc::gains, or 1.
     """
     __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
     name: str
@@ -794,12 +797,12 @@ class ImageFilter(Record):
     radius_px : int
         Median, adaptive: window (2 radius + 1)², at most.
     sigmas : float, 1
-        Bilateral, adaptive: neighbours count that are off by less than this times the noise of the
-        difference ….
+        Bilateral, adaptive: neighbours count if they differ by less than this times the noise of
+        the difference.
     range_m : float, m
-        Bilateral: … and this, summed in quadrature.
+        Bilateral: length added in quadrature to the limit that `sigmas` sets.
     goal_m : float, m
-        Adaptive: neighbours are added, ring by ring, until the noise is no more than this.
+        Adaptive: target noise; neighbours are added, ring by ring, until it is reached.
     """
     __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
     kind: Literal["none", "gaussian", "median", "bilateral", "adaptive"]
@@ -835,17 +838,20 @@ class FrequencyCalibration(Record):
     ----------
     modulation_frequency_hz : float, Hz
     phase_offset_rad : float, rad
-        Of all pixels, at DecoderCalibration::reference_celsius.
+        Amount by which measured phases are too large in all pixels, at
+        DecoderCalibration::reference_celsius.
     drift_m_per_kelvin : float, m/K
-        Half a path that is measured too long for each kelvin beyond that, besides.
+        Drift of half the path per kelvin above that temperature.
     wiggling_cos_rad : list[float], rad
-        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+        Wiggling, the phase error by harmonics: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the
+        measured phase φ̂.
     wiggling_sin_rad : list[float], rad
-        Wiggling: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the measured phase φ̂, besides.
+        Wiggling, the phase error by harmonics: Σ_m cos[m − 1]·cos(mφ̂) + sin[m − 1]·sin(mφ̂) of the
+        measured phase φ̂.
     pixel_phase_file : str
-        What the following are called: `meta` says this alone of them.
+        Name of the file of pixel_phase_rad: `meta` has the name alone.
     pixel_phase_rad : list[float], rad
-        [height][width] of the image that is read out, besides; none: 0.
+        Additional phase of each pixel, [height][width] of the image that is read out; none: 0.
     """
     __slots__ = ("modulation_frequency_hz", "phase_offset_rad", "drift_m_per_kelvin", "wiggling_cos_rad", "wiggling_sin_rad",
                  "pixel_phase_file", "pixel_phase_rad")
@@ -884,12 +890,12 @@ class DecoderCalibration(Record):
     Attributes
     ----------
     kind : Literal["exact", "none", "specimen"]
-        Exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels
-        all alike; specimen: what follows.
+        Exact: all that the profile says, each pixel's own phase included; none: a sine, and equal
+        pixels; specimen: the members below.
     reference_celsius : float, °C
-        At which it was measured.
+        Temperature at which the specimen was measured.
     frequencies : list[FrequencyCalibration]
-        One for each of the mode.
+        One entry for each modulation frequency of the mode.
     """
     __slots__ = ("kind", "reference_celsius", "frequencies")
     kind: Literal["exact", "none", "specimen"]
@@ -923,33 +929,33 @@ class Decoding(Record):
     upper_saturation_dn : float | None, DN
         Codes beyond: saturated; unless given, the ADC's valid codes.
     flying_near_z_m : float, m
-        Limit on |Δz| grows linearly from here ….
+        Z from which on the limit on |Δz| grows linearly.
     flying_near_limit_m : float, m
-        Limit on |Δz| grows linearly from here ….
+        Limit on |Δz| up to flying_near_z_m.
     flying_far_z_m : float, m
-        … to here, constant outside.
+        Z up to which the limit on |Δz| grows.
     flying_far_limit_m : float, m
-        … to here, constant outside.
+        Limit on |Δz| from flying_far_z_m on.
     flying_sigmas : float, 1
-        … and a flying pixel is off by more than this times the noise of the difference, too.
+        |Δz| must also exceed this times its noise; 0: the limit alone.
     flying_check : bool
-        False: nobody looks for flying pixels.
+        False: flying pixels are not detected.
     asymmetry_limit_e : float, e
-        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+        Largest |D_k + D_k'|, half a turn apart, before a pixel is flagged: inconsistent phases.
     asymmetry_sigmas : float, 1
-        D_k + D_k' half a turn apart: inconsistent phases beyond both.
+        |D_k + D_k'| must also exceed this times its noise.
     asymmetry_reject : bool
         The depth is invalid then; otherwise the flag is a warning.
     multipath_limit_m : float, m
-        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+        Largest |d_i − d_j| of two modulation frequencies before a pixel is flagged.
     multipath_sigmas : float, 1
-        D_i − d_j of two modulation frequencies: inconsistent ones beyond both.
+        |d_i − d_j| must also exceed this times its noise.
     multipath_reject : bool
+        The depth is invalid then; otherwise the flag is a warning.
     temporal_frames : int
-        Range is the mean over so many frames, the last one and those before it; 1: of each by
-        itself.
+        Number of frames in the mean of the range, the current one and those before it; 1: no mean.
     temporal_sigmas : float, 1
-        … of those that are off by less than this times the noise of the difference.
+        Frames count if they differ by less than this times the noise of the difference.
     filter : ImageFilter
     calibration : DecoderCalibration
     """
@@ -1041,7 +1047,7 @@ class Temperature(Record):
         First-order warm-up: warm_up · (1 − exp(−t/time constant)).
     warm_up_time_s : float, s
     since_start_s : float, s
-        How long the camera has run at frame 0.
+        Time since the camera was switched on, at frame 0.
     """
     __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
     celsius: float
@@ -1076,14 +1082,14 @@ class Interference(Record):
     Attributes
     ----------
     share : float, 1
-        Of its light over the own, in each pixel; 0: there is no other camera.
+        Light of the other camera over that of this one, in each pixel; 0: no other camera.
     frequency_difference_hz : float, Hz
-        Its modulation frequencies less the own.
+        Modulation frequencies of the other camera less those of this one.
     active : float, 1
-        How likely a raw frame meets its light, 0…1.
+        Probability that a raw frame overlaps the other camera's exposure, 0…1.
     phase_rad : float | None, rad
-        By how much its light is later than the own, at the start of frame 0; none: drawn anew for
-        each raw frame.
+        Phase by which the other camera's light lags at the start of frame 0; none: drawn for each
+        raw frame.
     """
     __slots__ = ("share", "frequency_difference_hz", "active", "phase_rad")
     share: float
@@ -1112,7 +1118,7 @@ class Calibration(Record):
     Attributes
     ----------
     range_offset_m : float, m
-        Raw data show surfaces too far by this.
+        Amount by which raw data show surfaces too far; decoding subtracts it.
     phase_offset : Curve
         Modulation frequency [Hz] → how much too large its phase is in raw data [rad], besides; one
         sample: a constant; none: 0.
@@ -1138,7 +1144,7 @@ class SpreadSpectrum(Record):
     Attributes
     ----------
     width : float, 1
-        Of the band, over the modulation frequency; 0: none.
+        Width of the band over the modulation frequency; 0: none.
     kind : Literal["center", "down"]
         Center: the modulation frequency is the band's middle; down: its upper end.
     """
@@ -1168,9 +1174,9 @@ class Readout(Record):
     top : int
         First column and row of the sensor that are read.
     width : int
-        Columns from there on; 0: as far as the sensor goes.
+        Number of columns; 0: up to the sensor's edge.
     height : int
-        Rows.
+        Number of rows; 0: up to the sensor's edge.
     """
     __slots__ = ("binning", "left", "top", "width", "height")
     binning: int
@@ -1201,16 +1207,16 @@ class AutoExposure(Record):
     Attributes
     ----------
     speed : float, 1
-        0…1: share of the way to the aim that each frame goes, by the logarithm; 0: the mode's times
-        stay.
+        0…1: share of the way to the aim that each frame takes, by the logarithm; 0: integration
+        times are fixed.
     aim : float, 1
-        How far the bright pixels shall go, a share of the valid codes and of the well.
+        Share of the valid codes, and of the full well, that bright pixels are to reach.
     bright : float, 1
-        Which those are: the quantile of all pixels.
+        Quantile of all pixels that counts as bright.
     shortest_s : float, s
-        Longest lit raw frame: no shorter than this; 0: than Camera::min_integration_time_s.
+        Lower limit of the longest lit integration time; 0: Camera::min_integration_time_s.
     longest_s : float, s
-        … and no longer than this; 0: than the mode has it.
+        Upper limit of the longest lit integration time; 0: that of the mode.
     """
     __slots__ = ("speed", "aim", "bright", "shortest_s", "longest_s")
     speed: float
@@ -1373,8 +1379,8 @@ class Material(Record):
         it does not.
     finish : VectorMap | None
         GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and
-        `alpha`, which then are a mean for those who look; `map` scales k_d, too. None: they are the
-        same everywhere.
+        `alpha`, which then are a mean for callers; `map` scales k_d, too. None: they are the same
+        everywhere.
     opacity : ReflectivityMap | None
         Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light
         and camera look through the rest. Texels of the other pictures that lie where it is less
@@ -1659,20 +1665,20 @@ class Mesh(Record):
     file : str
         Empty if built in code.
     scale : float, 1
-        Of the file's numbers, to metres.
+        Scale from the file's numbers to metres.
     up : Literal["automatic", "y", "z", "minus_y", "none"]
         The file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in
         PLY and STL;.
     animation : str
-        < none: the file's axes are the world's of a glTF file: a name, a number from 0 on, or "all"
-        at once; empty: the first.
+        < none: the file's axes are the world's animation of a glTF file: a name, a number from 0
+        on, or "all" at once; empty: the first.
     time_s : float | None, s
-        Of that animation; none: as its nodes stand.
+        Time of that animation; none: the file's rest pose.
     play : Literal["still", "once", "loop"]
-        Whether that animation goes on, from `time_s` (or its start) at t = 0.
+        Whether that animation plays, from `time_s` (or its start) at t = 0.
     sha256 : str
-        Of the file's bytes and those of the files that it names, as hexadecimal digits; empty if
-        built in code.
+        SHA-256 of the file's bytes and those of the files that it names, as hexadecimal digits;
+        empty if built in code.
     left_out : int
         Triangles of the file with a corner that is no finite number, or beyond 1e5 m.
     guessed : int
@@ -1680,9 +1686,9 @@ class Mesh(Record):
     notices : list[str]
         Sentences: what else of the file is left out, or mended.
     triangles : TriangleMesh | None
-        What is seen: already turned and scaled; objects may share it.
+        The triangles, turned and scaled already; objects may share them.
     motion : MeshMotion | None
-        How it changes its shape; none: it does not.
+        Motion of the vertices; none: the mesh keeps its shape.
     """
     __slots__ = ("file", "scale", "up", "animation", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles",
                  "motion")
@@ -1737,7 +1743,7 @@ class Rotation(Record):
     axis : tuple[float, float, float], 1
     angle_rad : float, rad
     quaternion : tuple[float, float, float, float] | None, 1
-        In place of axis and angle: x, y, z, w.
+        Rotation in place of axis and angle: x, y, z, w.
     """
     __slots__ = ("axis", "angle_rad", "quaternion")
     axis: tuple[float, float, float]
@@ -1805,11 +1811,11 @@ class Object(Record):
     angular_velocity_rad_per_s : tuple[float, float, float], rad/s
         Its axis, in the world, times how fast it turns by the right-hand rule.
     keyframes : list[Keyframe]
-        In place of position, rotation and both velocities; ascending in time.
+        Poses in place of position, rotation and both velocities; ascending in time.
     class_name : str
-        What kind of thing it is, for Truth::class_id; empty: none.
+        Class of the object, for Truth::class_id; empty: none.
     key : str
-        How its file addresses it, e.g. "objects.2"; empty if built in code.
+        Address in its file, e.g. "objects.2"; empty if built in code.
     where : str
         File:line:col for messages; empty if built in code.
     """
@@ -1856,14 +1862,15 @@ class Object(Record):
 
 
 class Ambient(Record):
-    """Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+    """Ambient light: all but the camera's illumination. One of level, illuminance and band irradiance
+    says how much.
 
     Attributes
     ----------
     spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
     quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
     amount : float, by its quantity
-        In the quantity's unit.
+        Amount in the quantity's unit.
     table_wavelength_m : list[float], m
         Spectrum `table`: ascending.
     table_irradiance_w_per_m3 : list[float], W/m³
@@ -1906,10 +1913,10 @@ class TransientBins(Record):
     bins : int
         0…1e6; 0: there are no histograms.
     first_m : float, m
-        0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the
+        0…1e6: path length at which the first bin begins, from the light by all surfaces to the
         camera.
     width_m : float, m
-        1e-6…1e6, of a bin.
+        1e-6…1e6: width of a bin in path length.
     """
     __slots__ = ("bins", "first_m", "width_m")
     bins: int
@@ -1929,25 +1936,26 @@ class TransientBins(Record):
 
 
 class Transport(Record):
-    """How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 +
-    bounces of them. Which ways it takes is chosen by chance, but the same for all frames: it is no
-    noise of the camera's. Arrays in place of the scene bounce nothing.
+    """Multipath: light that meets 1, 2 … 1 + bounces surfaces before it reaches the camera. Light
+    paths are Monte Carlo samples, the same for all frames: their error is no noise of the camera.
+    Arrays in place of the scene bounce nothing.
 
     Attributes
     ----------
     bounces : int
-        0…64; 0: light comes straight back from the surface that the lights shine on.
+        0…64: maximum number of bounces, surfaces beyond the first one; 0: no multipath.
     samples : int
-        1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up.
+        1…65536: light paths per pixel (Monte Carlo samples); an odd number is rounded up.
     seed : int
-        Another one: other ways, the same light but for their error.
+        Seed of the light paths: another one draws other paths of the same light.
     max_samples : int
-        0: as many as samples. Else a pixel goes on, twice as many again and again, up to these,
-        until it knows.
+        Most light paths per pixel: their number is doubled until path_noise_m is reached; 0:
+        samples.
     path_noise_m : float, m
-        Its half path to this standard error; 0: to a fifth of its depth noise.
+        Standard error of the half path at which a pixel has enough paths; 0: a fifth of its depth
+        noise.
     smooth : bool
-        Light that bounces is smoothed over neighbours that see the same surface.
+        Whether light that bounces is smoothed over neighbours that see the same surface.
     transient : TransientBins
     """
     __slots__ = ("bounces", "samples", "seed", "max_samples", "path_noise_m", "smooth", "transient")
@@ -1991,7 +1999,7 @@ class Pose(PoseMethods):
     up : tuple[float, float, float], 1
         Direction in the world that is up in the image.
     quaternion : tuple[float, float, float, float] | None, 1
-        From the camera's frame to the world's, as x, y, z, w; in place of look_at and up.
+        Rotation from camera to world, as x, y, z, w; in place of look_at and up.
     """
     __slots__ = ("position", "look_at", "up", "quaternion")
     position: tuple[float, float, float]
@@ -2076,7 +2084,7 @@ class CameraChoice(Record):
         Empty: the profile's first.
     pose : Pose
     keyframes : list[CameraKeyframe]
-        In place of the pose; ascending in time.
+        Poses in place of the pose; ascending in time.
     overrides : list[Override]
     profile_where : str
         File:line:col for messages; empty if built in code.
@@ -2118,9 +2126,9 @@ class SceneFile(Record):
     Attributes
     ----------
     file : str
-        As the scene names it.
+        Name in the scene.
     sha256 : str
-        Of its bytes, as hexadecimal digits.
+        SHA-256 of its bytes, as hexadecimal digits.
     """
     __slots__ = ("file", "sha256")
     file: str
@@ -2154,7 +2162,7 @@ class Scene(Record):
         The world's axis that is up. In files, what is not said follows from it: where a camera
         looks, what is up in its image, how the axes of meshes are turned. In code nothing does.
     files : list[SceneFile]
-        Of keyframes.
+        Files of keyframes.
     classes : list[str]
         Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the
         order of their letters.
@@ -2207,14 +2215,13 @@ class RanOn(Record):
     device : str
         Its name: of the GPU, or of the processor's instruction set.
     isa : str
-        Of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or
-        "neon".
+        Instruction set of the processor: "scalar", "scalar_fma", "avx2", "avx512" or "neon".
     threads : int
-        Of the processor.
+        Threads of the processor.
     block_size : int
         Threads per block of the kernel from ray to depth; 0 where the processor computed.
     occupancy : float, 1
-        How full that kernel makes the GPU, 0 … 1.
+        Share of the GPU that the kernel fills, 0 … 1.
     fallback_reason : str
         Why Backend::automatic took no GPU; empty where it did, or where the processor was asked
         for.
@@ -2254,7 +2261,7 @@ class PlanStep(Record):
     Attributes
     ----------
     name : str
-        Of the pass: "from_rays", "bounces", "range_filter" ….
+        Name of the pass: "from_rays", "bounces", "range_filter" ….
     does : str
         What it does, in a few words.
     part : str
@@ -2262,7 +2269,7 @@ class PlanStep(Record):
     over : str
         "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once.
     pieces : int
-        How many of these there are.
+        Number of pieces.
     """
     __slots__ = ("name", "does", "part", "over", "pieces")
     name: str
@@ -2294,9 +2301,9 @@ class Pinhole(PinholeMethods):
     Attributes
     ----------
     width : int
-        Of the picture, pixels; row 0 is the topmost.
+        Size of the picture in pixels; row 0 is the topmost.
     height : int
-        Of the picture, pixels; row 0 is the topmost.
+        Size of the picture in pixels; row 0 is the topmost.
     fx_px : float, px
     fy_px : float, px
     cx_px : float, px
@@ -2370,12 +2377,12 @@ class PlacedObject(Record):
         Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file
         has several materials is one.
     start : Placement
-        At the frame's start.
+        Placement at the frame's start.
     end : Placement | None
         Where the next frame starts: it goes there evenly, and on as far again; none: it stands
         still.
     keyframes : list[Keyframe]
-        In place of both, by the scene's time, ascending.
+        Placements in place of both, by the scene's time, ascending.
     """
     __slots__ = ("name", "start", "end", "keyframes")
     name: str
@@ -2406,12 +2413,12 @@ class FrameRequest(Record):
         Chooses the noise; starts at index / frame_rate.
     seed : int | None
     pose : Pose | None
-        Of the camera, at the frame's start.
+        Pose of the camera at the frame's start.
     pose_end : Pose | None
         Where the next frame starts: it goes there evenly, and on as far again; none: it stands
         still.
     camera : list[CameraKeyframe]
-        In place of both poses, by the scene's time, ascending.
+        Poses in place of both poses, by the scene's time, ascending.
     objects : list[PlacedObject]
         Those that are placed from outside; the others move as the scene says.
     start_time_s : float | None, s
@@ -2456,11 +2463,11 @@ class ObjectInView(Record):
     name : str
         As messages call it: "objects.2 (ball)".
     pixels : int
-        That see it.
+        Pixels that see it.
     nearest_m : float | None, m
         Range of the nearest pixel that sees it; none where no pixel does.
     farthest_m : float | None, m
-        Likewise.
+        Range of the farthest pixel that sees it; none where no pixel does.
     endless : bool
         A plane.
     low : tuple[float, float, float], m
@@ -2523,7 +2530,7 @@ class ObjectPlace(Record):
     class_name : str
         Object::class_name.
     position : tuple[float, float, float], m
-        In the world [m].
+        Position in the world [m].
     rotation : tuple[float, float, float, float], 1
     endless : bool
         A plane.
@@ -2611,9 +2618,9 @@ class SceneReport(Record):
     Attributes
     ----------
     time_s : float, s
-        Of the scene.
+        Time of the scene [s].
     pixels : int
-        Of the image.
+        Pixels of the image.
     outside_lens : int
         Pixels without a ray.
     no_surface : int
@@ -2621,11 +2628,11 @@ class SceneReport(Record):
     beyond_reach : int
         Pixels that see what is farther than the ambiguity range.
     ambiguity_range_m : float, m
-        Of the camera's mode; 0 where no raw frame is lit.
+        Ambiguity range of the camera's mode; 0 where no raw frame is lit.
     nearest_m : float | None, m
         Least range of all pixels; none where no ray hits anything.
     farthest_m : float | None, m
-        Likewise the largest.
+        Largest range of all pixels; none where no ray hits anything.
     objects : list[ObjectInView]
         One for each of Scene::objects.
     findings : list[SceneFinding]
@@ -2675,9 +2682,9 @@ class InvalidPixels(Record):
     Attributes
     ----------
     pixels : int
-        Of the image.
+        Pixels of the image.
     valid : int
-        Of them, those that have a depth.
+        Pixels that have a depth.
     wrapped : int
         Valid ones whose surface is beyond the ambiguity range: their depth is too small.
     valid_on_wrong_cycle : int
@@ -2691,9 +2698,9 @@ class InvalidPixels(Record):
     dark : int
         There is a surface within reach, and too little light comes back.
     low_signal : int
-        Too little light; without truth nobody knows what is there.
+        Too little light; without truth, what is there is unknown.
     no_return : int
-        No light; likewise.
+        No light; without truth, what is there is unknown.
     wrong_cycle : int
         Most neighbours are off by whole cycles of a modulation frequency.
     flying_pixel : int
@@ -2701,13 +2708,13 @@ class InvalidPixels(Record):
     outside_lens : int
         The lens model has no ray there.
     inconsistent_phases : int
-        Rejected for these.
+        Rejected for inconsistent phases.
     inconsistent_frequencies : int
-        Likewise.
+        Rejected for inconsistent frequencies.
     ambiguity_range_m : float, m
-        Of the camera's mode; 0 where no raw frame is lit.
+        Ambiguity range of the camera's mode; 0 where no raw frame is lit.
     ranges_m : list[float], m
-        That of each modulation frequency alone.
+        Ambiguity range of each modulation frequency alone.
     """
     __slots__ = ("pixels", "valid", "wrapped", "valid_on_wrong_cycle", "saturated", "no_surface", "beyond_reach", "dark", "low_signal",
                  "no_return", "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies",
@@ -2776,11 +2783,11 @@ class AmbientCase(Record):
     Attributes
     ----------
     name : str
-        What tables call it.
+        Name in tables.
     ambient : Ambient
         None: darkness.
     pose : Pose
-        Of the camera, where the ambient light has a direction.
+        Pose of the camera, where the ambient light has a direction.
     """
     __slots__ = ("name", "ambient", "pose")
     name: str
@@ -2807,7 +2814,7 @@ class CameraQuestion(Record):
     distances_m : list[float], m
         Z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m.
     reflectivities : list[float], 1
-        Of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
+        Reflectivities of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
     ambients : list[AmbientCase]
         Empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
     """
@@ -2834,7 +2841,7 @@ class NoiseAt(Record):
     Attributes
     ----------
     z_m : float, m
-        On the optical axis.
+        Distance on the optical axis.
     sigma_m : float, m
         Standard deviation of the range, expected; NaN: nothing comes back [theory: eq. 4.9].
     wrong_cycle : float, 1
@@ -2871,12 +2878,11 @@ class NoiseAtDistances(Record):
     Attributes
     ----------
     reflectivity : float, 1
-        Of the surface.
+        Reflectivity of the surface.
     ambient : str
         Name of the light that is not the camera's own.
     saturated_up_to_m : float, m
-        From there on to the camera it saturates; 0: not from 5 cm on; everywhere_m: at all
-        distances.
+        Largest distance at which it saturates; 0: none from 5 cm on; everywhere_m: all distances.
     at : list[NoiseAt]
         One for each distance.
     """
@@ -2906,19 +2912,19 @@ class CameraReport(Record):
     Attributes
     ----------
     width : int
-        Of the image.
+        Size of the image in pixels.
     height : int
-        Of the image.
+        Size of the image in pixels.
     width_deg : float, °
         Field of view between the outer edges of the outermost pixels, through the middle.
     height_deg : float, °
-        Likewise.
+        Field of view between the outer edges of the outermost rows, through the middle.
     diagonal_deg : float, °
-        From corner to corner.
+        Field of view from corner to corner.
     pixel_width_m : float, m
-        That one pixel sees at 1 m on the axis.
+        Width that one pixel sees at 1 m on the axis.
     pixel_height_m : float, m
-        Likewise.
+        Height that one pixel sees at 1 m on the axis.
     outside : float, 1
         Share of the pixels that are outside the lens model.
     unlit : float, 1
@@ -2926,11 +2932,11 @@ class CameraReport(Record):
     darkest : float, 1
         Signal of the darkest lit pixel over the brightest one's, of that wall.
     modulation_frequency_hz : list[float], Hz
-        Of the mode.
+        Modulation frequencies of the mode.
     cycles : list[int]
-        Of each of them in the ambiguity range: M and N of two.
+        Cycles of each of them in the ambiguity range: M and N of two.
     ambiguity_range_m : float, m
-        Of the mode; 0 where no raw frame is lit.
+        Ambiguity range of the mode; 0 where no raw frame is lit.
     low_signal_m : float, m
         Σ above this is flagged.
     knows_ambient : bool
@@ -3013,9 +3019,9 @@ class ChainRawFrame(Record):
     signal_e : float, e
         Ground truth S, both taps.
     direct_e : float, e
-        By one surface and by several, before the lens scatters them.
+        Electrons by one surface and by several, before the lens scatters them.
     indirect_e : float, e
-        By one surface and by several, before the lens scatters them.
+        Electrons by one surface and by several, before the lens scatters them.
     multipath_m : float, m
         What that does to the half path [theory: eq. 7.8].
     path_noise_m : float, m
@@ -3176,9 +3182,9 @@ class PixelChain(Record):
     reflectivity : float, 1
     incidence_rad : float, rad
     object_share : float, 1
-        Of samples within the pixel.
+        Truth of samples within the pixel.
     mixed : float, 1
-        Of samples within the pixel.
+        Truth of samples within the pixel.
     position_m : tuple[float, float, float], m
     normal : tuple[float, float, float], 1
     irradiance_w_m2 : float, W/m²
@@ -3297,9 +3303,9 @@ class BounceShare(Record):
     first : int
     last : int
     share : float, 1
-        Of the electrons of all lit raw frames, 0 … 1.
+        Share of the electrons of all lit raw frames, 0 … 1.
     electrons : list[float], e
-        By raw frame, before the lens scatters them [e].
+        Electrons by raw frame, before the lens scatters them [e].
     multipath_m : list[float], m
         By raw frame: what it adds to the half path once all before it are there [m] [theory: eq.
         7.8].
@@ -3330,7 +3336,7 @@ class BounceShare(Record):
 class PixelBounces(Record):
     """One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone,
     so that frames with fewer bounces follow the beginnings of the same paths: what a bounce adds is
-    the difference of two frames, without error of chance between them.
+    the difference of two frames, without Monte Carlo error between them.
 
     Attributes
     ----------
@@ -3363,8 +3369,8 @@ class Validity(Record):
         "12 dark, 3 no surface"; empty where all are valid.
     advice : str
         Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11
-        m at the median; more light …"; likewise where many have a depth that is whole cycles off.
-        Lines behind the first are indented.
+        m at the median; more light …"; also where many have a depth that is whole cycles off. Lines
+        behind the first are indented.
     has_light : bool
         The camera's own has any power.
     """
@@ -3396,11 +3402,11 @@ class InputFile(Record):
     role : str
         "scene", "profile", "table", "mesh", "keyframes", ….
     name : str
-        As the caller or the scene names it; a built-in name where `text` is empty.
+        Name by the caller or the scene; a built-in name where `text` is empty.
     text : str
         The whole file, UTF-8; empty for what is built in, and for meshes and keyframes.
     sha256 : str
-        Of a mesh and of keyframes, which may be too long to be here.
+        SHA-256 of a mesh and of keyframes, which may be too long to be here.
     """
     __slots__ = ("role", "name", "text", "sha256")
     role: str
@@ -3494,7 +3500,7 @@ class Inputs(Record):
     files : list[InputFile]
         The scene first.
     remarks : list[Remark]
-        What is odd about them and can be simulated all the same.
+        Remarks on the inputs, which can be simulated all the same.
     """
     __slots__ = ("scene", "camera", "files", "remarks")
     scene: Scene
@@ -3525,16 +3531,16 @@ class RunResult(Record):
     files : list[FileRecord]
         Manifest.json last.
     frames : int
-        How many are complete.
+        Number of complete frames.
     interrupted : bool
         Fewer than were asked for.
     remarks : list[Remark]
-        Of the inputs, the scene as the camera sees it, the frames, the folder.
+        Remarks on the inputs, the scene as the camera sees it, the frames, the folder.
     last : Validity
-        Of the last frame's depth.
+        Validity of the last frame's depth.
     ran_on : RanOn
     timings_s : list[tuple[str, float]], s
-        By stage: prepare, simulate, write.
+        Seconds by stage: prepare, simulate, write.
     """
     __slots__ = ("folder", "files", "frames", "interrupted", "remarks", "last", "ran_on", "timings_s")
     folder: str
