@@ -13,7 +13,7 @@ LANGUAGES = {".py": "python", ".h": "cpp", ".cpp": "cpp", ".yaml": "yaml", ".sh"
 LARGEST_TEXT = 100_000
 
 # What is below a page in the site's contents: README says nothing of that.
-BELOW = {"index.md": "contents.txt", "decisions/index.md": ("0*",), "theory/index.md": ("0*", "equations")}
+BELOW = {"index.md": "contents.txt", "decisions/index.md": ("0*",), "how-to.md": ("how-to/*",), "theory/index.md": ("0*", "equations")}
 
 MOVED = {
     "README.md": "index.md",

@@ -18,9 +18,9 @@ namespace tofray {
 struct ObjectInView {
   int object = 0;                    ///< index in Scene::objects
   std::string name;                  ///< as messages call it: "objects.2 (ball)"
-  std::int64_t pixels = 0;           ///< that see it
+  std::int64_t pixels = 0;           ///< pixels that see it
   std::optional<double> nearest_m;   ///< range of the nearest pixel that sees it; none where no pixel does
-  std::optional<double> farthest_m;  ///< likewise
+  std::optional<double> farthest_m;  ///< range of the farthest pixel that sees it; none where no pixel does
   bool endless = false;              ///< a plane
   Vec3 low{}, high{};                ///< its box in the world [m]; of a plane −inf and inf
   bool behind_camera = false;        ///< all of it has z < 0 in the camera's frame
@@ -32,8 +32,8 @@ struct ObjectInView {
 struct ObjectPlace {
   std::string name;                 ///< Object::name
   std::string class_name;           ///< Object::class_name
-  Vec3 position{};                  ///< in the world [m]
-  Quaternion rotation{0, 0, 0, 1};  ///< from its own frame's axes to the world's [1]
+  Vec3 position{};                  ///< position in the world [m]
+  Quaternion rotation{0, 0, 0, 1};  ///< rotation from its own frame's axes to the world's [1]
   bool endless = false;             ///< a plane
   Vec3 low{}, high{};               ///< its box in the world [m]; of a plane −inf and inf
 };
@@ -46,7 +46,7 @@ struct SceneFinding {
   enum class Kind {
     no_objects,       ///< the scene has none
     nothing_in_view,  ///< no ray hits an object, or nothing but planes
-    behind_camera,    ///< likewise, and all that is no plane is behind the camera
+    behind_camera,    ///< no ray hits an object, or nothing but planes, and all else is behind the camera
     millimetres,      ///< all is farther than 100 m: coordinates in millimetres?
     mesh_size,        ///< a mesh is very large or very small: a scale is missing, or one too many?
     around_camera,    ///< the camera stands inside an object
@@ -65,14 +65,14 @@ struct SceneFinding {
 
 /// What the camera sees of the scene at one time.
 struct SceneReport {
-  double time_s = 0;                  ///< of the scene
-  std::int64_t pixels = 0;            ///< of the image
+  double time_s = 0;                  ///< time of the scene [s]
+  std::int64_t pixels = 0;            ///< pixels of the image
   std::int64_t outside_lens = 0;      ///< pixels without a ray
   std::int64_t no_surface = 0;        ///< pixels whose ray hits nothing
   std::int64_t beyond_reach = 0;      ///< pixels that see what is farther than the ambiguity range
-  double ambiguity_range_m = 0;       ///< of the camera's mode; 0 where no raw frame is lit
+  double ambiguity_range_m = 0;       ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
   std::optional<double> nearest_m;    ///< least range of all pixels; none where no ray hits anything
-  std::optional<double> farthest_m;   ///< likewise the largest
+  std::optional<double> farthest_m;   ///< largest range of all pixels; none where no ray hits anything
   std::vector<ObjectInView> objects;  ///< one for each of Scene::objects
   std::vector<SceneFinding> findings;
 };
@@ -90,13 +90,13 @@ enum class NoDepth {
   no_surface,                ///< its ray hits nothing
   beyond_reach,              ///< the surface is farther than the ambiguity range
   dark,                      ///< it sees a surface within reach, and too little light comes back
-  low_signal,                ///< too little light; nobody knows what is there
-  no_return,                 ///< no light; likewise
+  low_signal,                ///< too little light; what is there is unknown
+  no_return,                 ///< no light; what is there is unknown
   wrong_cycle,               ///< flying by flags, but most neighbours are off by multiples of a modulation frequency's ambiguity range
   flying_pixel,              ///< light of near and far mixed
   outside_lens,              ///< the lens model has no ray there
-  inconsistent_phases,       ///< rejected for these
-  inconsistent_frequencies,  ///< likewise
+  inconsistent_phases,       ///< rejected for inconsistent phases
+  inconsistent_frequencies,  ///< rejected for inconsistent frequencies
 };
 /// How many reasons there are.
 inline constexpr std::size_t no_depth_count = 11;
@@ -105,25 +105,25 @@ const char* no_depth_name(NoDepth reason);
 
 /// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
 struct InvalidPixels {
-  std::int64_t pixels = 0;                ///< of the image
-  std::int64_t valid = 0;                 ///< of them, those that have a depth
+  std::int64_t pixels = 0;                ///< pixels of the image
+  std::int64_t valid = 0;                 ///< pixels that have a depth
   std::int64_t wrapped = 0;               ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
   std::int64_t valid_on_wrong_cycle = 0;  ///< valid ones whose range is off by more than half a cycle of the highest modulation frequency
   std::int64_t saturated = 0;             ///< a well or the ADC is full
   std::int64_t no_surface = 0;            ///< the ray hits nothing
   std::int64_t beyond_reach = 0;          ///< the surface is farther than the ambiguity range
   std::int64_t dark = 0;                  ///< there is a surface within reach, and too little light comes back
-  std::int64_t low_signal = 0;            ///< too little light; without truth nobody knows what is there
-  std::int64_t no_return = 0;             ///< no light; likewise
+  std::int64_t low_signal = 0;            ///< too little light; without truth, what is there is unknown
+  std::int64_t no_return = 0;             ///< no light; without truth, what is there is unknown
   std::int64_t wrong_cycle = 0;           ///< most neighbours are off by whole cycles of a modulation frequency
   std::int64_t flying_pixel = 0;          ///< light of near and far mixed
   std::int64_t outside_lens = 0;          ///< the lens model has no ray there
-  std::int64_t inconsistent_phases = 0;   ///< rejected for these
-  std::int64_t inconsistent_frequencies = 0;  ///< likewise
-  double ambiguity_range_m = 0;               ///< of the camera's mode; 0 where no raw frame is lit
-  std::vector<double> ranges_m;               ///< that of each modulation frequency alone
+  std::int64_t inconsistent_phases = 0;   ///< rejected for inconsistent phases
+  std::int64_t inconsistent_frequencies = 0;  ///< rejected for inconsistent frequencies
+  double ambiguity_range_m = 0;               ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
+  std::vector<double> ranges_m;               ///< ambiguity range of each modulation frequency alone
 
-  /// Those of one reason.
+  /// Number of pixels of one reason.
   [[nodiscard]] std::int64_t count(NoDepth reason) const;
 };
 
@@ -136,7 +136,7 @@ InvalidPixels invalid_pixels(const Frame& frame, const Camera& camera, bool wron
 struct Validity {
   InvalidPixels pixels;
   std::string reasons;  ///< "12 dark, 3 no surface"; empty where all are valid
-  /// Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11 m at the median; more light …"; likewise
+  /// Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11 m at the median; more light …"; also
   /// where many have a depth that is whole cycles off. Lines behind the first are indented.
   std::string advice;
   bool has_light = true;  ///< the camera's own has any power

@@ -17,19 +17,19 @@ namespace tofray {
 /// What a budget is asked: one pixel looks at a matt wall, at each of these.
 struct BudgetRequest {
   std::vector<double> distances_m;     ///< z of the wall where the pixel sees it, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m
-  std::vector<double> reflectivities;  ///< of the wall, 0 to 1; empty: 0.2 and 0.8
+  std::vector<double> reflectivities;  ///< reflectivities of the wall, 0 to 1; empty: 0.2 and 0.8
   std::vector<AmbientCase> ambients;   ///< empty: darkness
   double angle_rad = 0;                ///< the wall is turned by this about the camera's y; 0: it faces the camera; below a right angle
-  std::optional<double> temperature_celsius;   ///< in the place of Temperature::celsius
+  std::optional<double> temperature_celsius;   ///< temperature in place of Temperature::celsius
   std::optional<std::array<double, 2>> pixel;  ///< column and row in the image; none: where the optical axis is
   bool auto_exposure = false;                  ///< exposures as AutoExposure leaves them of that wall; false: those of the mode
 };
 
 /// Shares of the range's variance by cause; their sum is 1.                                       [theory: eq. 4.33]
 struct VarianceShares {
-  double signal_shot = 0;   ///< shot noise of the camera's own light
-  double ambient_shot = 0;  ///< … of ambient light
-  double dark_shot = 0;     ///< … of dark charge
+  double signal_shot = 0;   ///< shot noise of the camera's illumination
+  double ambient_shot = 0;  ///< shot noise of ambient light
+  double dark_shot = 0;     ///< shot noise of dark charge
   double read = 0;          ///< reset and read noise of both taps
   double adc = 0;           ///< rounding to whole codes
   double suppression = 0;   ///< noise that background suppression adds
@@ -39,37 +39,37 @@ struct VarianceShares {
 /// One modulation frequency of a row. Electrons are those of both taps together, in one raw frame.
 struct BudgetFrequency {
   double modulation_frequency_hz = 0;
-  double integration_time_s = 0;  ///< of one raw frame
-  double signal_e = 0;            ///< of the camera's own light
-  double ambient_e = 0;           ///< of ambient light
-  double dark_e = 0;              ///< of dark current
+  double integration_time_s = 0;  ///< integration time of one raw frame
+  double signal_e = 0;            ///< electrons of the camera's illumination
+  double ambient_e = 0;           ///< electrons of ambient light
+  double dark_e = 0;              ///< electrons of dark current
   double amplitude_e = 0;         ///< Â, of the taps' difference as it is read
   double contrast = 0;            ///< amplitude over signal
-  double sigma_m = 0;             ///< of the range by this frequency alone, 1 sigma
+  double sigma_m = 0;             ///< noise of the range by this frequency alone, 1 sigma
 };
 
 /// One pixel, one wall: expected values of light, charge and range noise.
 struct BudgetRow {
-  double z_m = 0;                      ///< of the wall, along the optical axis
+  double z_m = 0;                      ///< z of the wall, along the optical axis
   double range_m = 0;                  ///< along the pixel's ray
-  double reflectivity = 0;             ///< of the wall
+  double reflectivity = 0;             ///< reflectivity of the wall
   std::string ambient;                 ///< name of the ambient light
   double exposure = 1;                 ///< longest lit integration time over the mode's own
-  double irradiance_w_m2 = 0;          ///< of the camera's own light on the wall
-  double ambient_irradiance_w_m2 = 0;  ///< of ambient light on a surface that faces it, in the band of the filter
-  double power_w = 0;                  ///< of own light on the pixel, mean of a lit raw frame
-  double ambient_power_w = 0;          ///< of ambient light on the pixel
-  double signal_e = 0;                 ///< of own light, both taps together, in the raw frame that has most
-  double ambient_e = 0;                ///< of ambient light, likewise
-  double dark_e = 0;                   ///< of dark current, likewise
+  double irradiance_w_m2 = 0;          ///< irradiance of the wall by the camera's illumination
+  double ambient_irradiance_w_m2 = 0;  ///< irradiance by ambient light of a surface that faces it, in the band of the filter
+  double power_w = 0;                  ///< power on the pixel by the camera's illumination, mean of a lit raw frame
+  double ambient_power_w = 0;          ///< power on the pixel by ambient light
+  double signal_e = 0;                 ///< electrons of the camera's illumination, both taps together, in the raw frame that has most
+  double ambient_e = 0;                ///< electrons of ambient light, both taps together, in the raw frame that has most
+  double dark_e = 0;                   ///< electrons of dark current, both taps together, in the raw frame that has most
   double contrast = 0;                 ///< mean of the modulation frequencies
   double amplitude_e = 0;              ///< mean of the modulation frequencies, as Depth::amplitude_e
-  double tap_filling = 0;              ///< of the fuller tap of a lit raw frame, over the full well; may be above 1
+  double tap_filling = 0;              ///< charge of the fuller tap of a lit raw frame over the full well; may be above 1
   double adc_filling = 0;       ///< how far the code is from the middle, over the way to the nearer end of the valid codes; may be above 1
-  double sigma_m = 0;           ///< of the range, 1 sigma, before filters and means over frames; NaN: there is no range
-  double sigma_z_m = 0;         ///< the same of z
-  double noise_estimate_m = 0;  ///< what the camera says of the same by itself (Depth::noise_m); NaN likewise
-  VarianceShares share;         ///< of sigma_m squared
+  double sigma_m = 0;           ///< noise of the range, 1 sigma, before filters and means over frames; NaN: there is no range
+  double sigma_z_m = 0;         ///< noise of z, 1 sigma, before filters and means over frames; NaN: there is no range
+  double noise_estimate_m = 0;  ///< the camera's estimate of sigma_m (Depth::noise_m); NaN: there is no range
+  VarianceShares share;         ///< shares of sigma_m squared
   double exponent = 0;          ///< σ grows with the distance to this power: 1 where signal shot noise rules, 2 where all else does
   double wrong_cycle = 0;       ///< probability that the range is whole cycles off; NaN: no range   [theory: eq. 4.29, 4.30]
   double bias_m = 0;            ///< range without noise less the true one: drift, wiggling, whole ambiguity ranges; NaN: no range
@@ -77,7 +77,7 @@ struct BudgetRow {
   bool low_signal = false;      ///< σ is above the decoding's noise threshold, or the amplitude below its own
   bool no_return = false;       ///< nothing comes back
   bool beyond_ambiguity = false;             ///< the wall is farther than the ambiguity range: its range comes out too short
-  std::vector<BudgetFrequency> frequencies;  ///< in the order in which the sequence first has them
+  std::vector<BudgetFrequency> frequencies;  ///< modulation frequencies, in the order in which the sequence first has them
 };
 
 /// Rows: ambient by ambient, in each by reflectivity, in each by distance. Their physics is the simulator's own: light and charge are those
@@ -93,21 +93,21 @@ struct BudgetReach {
   /// Largest distance at which σ is no more than the decoding's noise threshold, up to 1000 m; 0: nowhere from 1 cm on.
   double reach_m = 0;
   double nearest_m = 0;                         ///< nothing nearer than this is without saturation; 0: nothing saturates from 1 cm on
-  static constexpr double everywhere_m = 1000;  ///< as nearest_m: it saturates at all distances
+  static constexpr double everywhere_m = 1000;  ///< value of nearest_m that means: it saturates at all distances
 };
 
-/// What does not hang on the distance.
+/// The part of a budget that does not depend on the distance.
 struct BudgetSummary {
   double ambiguity_range_m = 0;
   double low_signal_m = 0;            ///< the decoding's noise threshold
   std::vector<BudgetReach> reach;     ///< ambient by ambient, in each by reflectivity
   double energy_per_frame_j = 0;      ///< optical, of all lit raw frames
-  double mean_power_w = 0;            ///< that times the frame rate
+  double mean_power_w = 0;            ///< energy_per_frame_j times the frame rate
   double radiant_intensity_w_sr = 0;  ///< toward what the pixel sees, mean of a lit raw frame, from 10 m
   double noise_at_1_m_m = 0;          ///< noise-equivalent distance: σ of a white wall (100 %) at 1 m in the dark; NaN: no range there
-  double correlated_e_per_j = 0;      ///< amplitude for each joule of own light on the pixel, mean of the modulation frequencies
-  double uncorrelated_e_per_j = 0;  ///< how much the taps' difference is off for each joule of light of that wavelength without modulation
-  std::optional<double> rejection;  ///< background-light rejection ratio: the one over the other; none: nothing is off
+  double correlated_e_per_j = 0;      ///< amplitude per joule of the camera's illumination on the pixel, mean of the modulation frequencies
+  double uncorrelated_e_per_j = 0;    ///< offset of the taps' difference per joule of light of that wavelength without modulation
+  std::optional<double> rejection;    ///< background-light rejection ratio: the one over the other; none: nothing is off
 };
 
 /// @throws Error as budget() does
@@ -125,7 +125,7 @@ struct BudgetNeed {
 struct BudgetSolution {
   bool reached = false;  ///< false: none of the numbers makes σ what is needed
   double value = 0;      ///< not reached: the one that comes nearest, if any has a range noise
-  BudgetRow row;         ///< with that number
+  BudgetRow row;         ///< the budget with that number
   std::string why;       ///< not reached: what σ comes to, and what stands in the way, with figures
 };
 

@@ -23,10 +23,10 @@ struct ErrorCause {
 
 /// The error of z, split by cause. Means over the pixels that have a depth and a truth; NaN where there is none.
 struct ErrorSplit {
-  int pixels = 0;                  ///< that were asked for
-  int valid = 0;                   ///< of which the means are
-  double error_m = 0;              ///< z_m - gt_z_m
-  double sigma_m = 0;              ///< of z, as the camera estimates it: the root of the mean square
+  int pixels = 0;                  ///< number of pixels that were asked for
+  int valid = 0;                   ///< number of pixels in the means
+  double error_m = 0;              ///< error of z: z_m - gt_z_m
+  double sigma_m = 0;              ///< noise of z as the camera estimates it: the root of the mean square
   std::vector<ErrorCause> causes;  ///< those that the scene and the camera have, the largest first
   double rest_m = 0;               ///< error_m less all causes: what several of them do together, and what is none of them
 };
@@ -53,7 +53,7 @@ class ErrorCauses {
   ErrorCauses& operator=(ErrorCauses&&) noexcept;
 
   /// Simulates one frame more. One that SimulatorOptions::progress stopped is simulated again by the next
-  /// call; whoever set FrameProgress::stop takes it back before.
+  /// call; the caller that set FrameProgress::stop resets it before.
   /// @return whether more are to come
   bool step();
   /// Good once `step` has said that no more are to come.

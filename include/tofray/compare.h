@@ -45,21 +45,21 @@ struct DifferencesAt {
 /// Pixels with a flag in A or in B.
 struct DifferencesOfFlag {
   std::string flag;            ///< "filtered": a row of TOFRAY_FLAGS
-  std::int64_t only_in_a = 0;  ///< have a depth in A alone
-  std::int64_t only_in_b = 0;  ///< in B alone
-  Differences of;              ///< those that have a depth in both
+  std::int64_t only_in_a = 0;  ///< pixels that have a depth in A alone
+  std::int64_t only_in_b = 0;  ///< pixels that have a depth in B alone
+  Differences of;              ///< differences of the pixels that have a depth in both
 };
 
 /// A − B: of all pixels and of parts of them.
 struct Comparison {
   ImageRegion region;
   bool range = false;
-  std::int64_t pixels = 0;   ///< of the region
+  std::int64_t pixels = 0;   ///< pixels of the region
   std::int64_t both = 0;     ///< have a depth in A and in B: only these are compared
-  std::int64_t only_a = 0;   ///< in A alone
-  std::int64_t only_b = 0;   ///< in B alone
-  std::int64_t neither = 0;  ///< in none
-  double shift_m = 0;        ///< that was taken off A
+  std::int64_t only_a = 0;   ///< pixels with a depth in A alone
+  std::int64_t only_b = 0;   ///< pixels with a depth in B alone
+  std::int64_t neither = 0;  ///< pixels without a depth in either
+  double shift_m = 0;        ///< shift that was taken off A
   Differences all, flats, edges;
   std::vector<DifferencesAt> by_distance;  ///< classes without a pixel are left out
   std::vector<DifferencesOfFlag> by_flag;  ///< flags that some pixel has
@@ -67,7 +67,7 @@ struct Comparison {
   /// the depth is; above: it says too little, or a bias is beside it. NaN: neither has noise_m, or one has no range.
   double chi2 = 0;
   double chi2_error = 0;             ///< one standard error of it
-  std::int64_t chi2_pixels = 0;      ///< that it was made of
+  std::int64_t chi2_pixels = 0;      ///< number of pixels that it was made of
   std::int64_t chi2_outliers = 0;    ///< flat pixels left out of it: more than six sigmas off, as on a wrong cycle
   double amplitude_correlation = 0;  ///< Pearson's r of amplitude_e; NaN: one has none
   /// A − B of the region's pixels [height][width]; NaN: not in both.

@@ -14,7 +14,7 @@ namespace tofray {
 
 /// A value that was drawn for a sample.
 struct Drawn {
-  std::string path;  ///< of the key, by the names of objects where they have names: "objects/ball/radius"
+  std::string path;  ///< path of the key, by the names of objects where they have names: "objects/ball/radius"
   std::string form;  ///< uniform, choice, …
   std::string text;  ///< the value as it stands in the scene; empty where the key is left out
   double value = 0;  ///< of a number in the unit of `text`; of a choice, grid, file or row which one it is, from 0; of a chance 0 or 1
@@ -31,15 +31,15 @@ class Dataset {
   explicit Dataset(const std::string& file);
 
   [[nodiscard]] const std::string& name() const;
-  [[nodiscard]] const std::string& license() const;  ///< by its SPDX name; empty where the file says none
+  [[nodiscard]] const std::string& license() const;  ///< SPDX name of the license; empty where the file says none
   [[nodiscard]] std::uint64_t samples() const;
-  [[nodiscard]] std::uint64_t views() const;  ///< of each sample
+  [[nodiscard]] std::uint64_t views() const;  ///< views of each sample
   /// Combinations of the set's grids; 1 where it has none. Sample i has the combination i modulo this.
   [[nodiscard]] std::uint64_t combinations() const;
 
   /// The scene of a sample as YAML: rendering it makes the sample's bytes. @throws Error with line and column of the set's file, (bad_input) for a sample or view that is not there
   [[nodiscard]] std::string scene_yaml(std::uint64_t sample, std::uint64_t view = 0) const;
-  /// The same, read. @throws Error as load_scene()
+  /// The scene of a sample, read. @throws Error as load_scene()
   [[nodiscard]] Scene scene(std::uint64_t sample, std::uint64_t view = 0) const;
   /// What was drawn for it, in the order of the file.
   [[nodiscard]] std::vector<Drawn> drawn(std::uint64_t sample, std::uint64_t view = 0) const;

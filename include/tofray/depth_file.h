@@ -31,7 +31,7 @@ struct DepthFile {
 /// @throws Error (io, bad_input, limit) by file, with the way out
 DepthFile load_depth(const std::string& file, const DepthFileOptions& options = {});
 
-/// The same of each frame of a folder: its .npz files, or where it has none its .npy, .png or .csv files, in the order of their names.
+/// Depth of each frame of a folder: its .npz files, or where it has none its .npy, .png or .csv files, in the order of their names.
 /// A file alone is a list of one.
 /// @throws Error as load_depth(); (bad_input) for a folder without any, with what lies there instead
 std::vector<DepthFile> load_depths(const std::string& file_or_folder, const DepthFileOptions& options = {});

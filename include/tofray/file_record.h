@@ -10,9 +10,9 @@ namespace tofray {
 /// A file that a run starts from, as manifest.json lists it.
 struct InputFile {
   std::string role;         ///< "scene", "profile", "table", "mesh", "keyframes", …
-  std::string name;         ///< as the caller or the scene names it; a built-in name where `text` is empty
+  std::string name;         ///< name by the caller or the scene; a built-in name where `text` is empty
   std::string text;         ///< the whole file, UTF-8; empty for what is built in, and for meshes and keyframes
-  std::string sha256 = {};  ///< of a mesh and of keyframes, which may be too long to be here
+  std::string sha256 = {};  ///< SHA-256 of a mesh and of keyframes, which may be too long to be here
 };
 
 /// A file that a run has written.

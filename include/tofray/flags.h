@@ -33,7 +33,7 @@ namespace tofray {
   row(low_signal,                 2, 1, 'L', 0x7c8089, 0x767a83, "low signal",               "the noise is above camera.decoding.noise_threshold", "more light, a longer integration time, or a higher camera.decoding.noise_threshold") \
   row(flying_pixel,               4, 1, 'F', 0x3eaf54, 0x3eaf54, "flying pixel",             "its range lies between those of its neighbours",   "surfaces that are seen at a glancing angle, or thinner than a few pixels; camera.decoding says what is one") \
   row(inconsistent_phases,       32, 0, 'P', 0xbe3cbe, 0xbe3cbe, "inconsistent phases",      "the raw frames of one modulation frequency do not fit together", "something moves, or camera.decoding.asymmetry rejects too much") \
-  row(inconsistent_frequencies,  64, 0, 'M', 0x783c82, 0x783c82, "inconsistent frequencies", "the ranges of the modulation frequencies do not fit together", "light on several ways, a wrong cycle, or camera.decoding.multipath rejects too much")
+  row(inconsistent_frequencies,  64, 0, 'M', 0x783c82, 0x783c82, "inconsistent frequencies", "the ranges of the modulation frequencies do not fit together", "multipath, a wrong cycle, or camera.decoding.multipath rejects too much")
 
 /// What else is said of a pixel.
 #define TOFRAY_MARKS(row) \
@@ -51,7 +51,7 @@ enum Flag : std::uint16_t {
 #undef TOFRAY_FLAG
 };
 
-/// Those without a depth have one of these.
+/// Bits of which a pixel without depth has at least one.
 #define TOFRAY_INVALID(name, bit, invalid, ...) +(bit) * (invalid)
 inline constexpr std::uint16_t flags_invalid = 0 TOFRAY_FLAGS(TOFRAY_INVALID);
 #undef TOFRAY_INVALID

@@ -30,10 +30,10 @@ struct Depth {
   TOFRAY_DEPTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> z_m; …
 };
 
-/// Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
+/// Ground truth at the middle of the middle raw frame, and the power of the camera's illumination.
 struct Truth {
   int width = 0, height = 0, phases = 0;
-  int bins = 0;  ///< of transient_e_per_s
+  int bins = 0;  ///< bins of transient_e_per_s
   double time_s = 0;
   TOFRAY_TRUTH_ARRAYS(TOFRAY_VECTOR)  // std::vector<float> range_m; …
 };

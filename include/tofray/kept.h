@@ -48,7 +48,7 @@ class KeptRaw {
 
 /// A simulator on the processor whose frames may begin with what another one kept, and have the bytes of Simulator::frame then, too.
 ///
-/// Whoever asks answers for what differs between the two: of light that was kept nothing that stages 1 and 2 look at, of raw frames nothing
+/// The caller answers for what differs between the two: of light that was kept nothing that stages 1 and 2 look at, of raw frames nothing
 /// but Camera::decoding. Everything else has to be the same, scene, options and frame.
 class KeptFrames {
  public:

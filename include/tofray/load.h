@@ -20,8 +20,8 @@ Scene load_scene(const std::string& file_or_name, const std::string& root = {});
 
 /// What a user means by a word that is both a built-in name and, with or without .yaml or .yml, a file of the working directory.
 struct NameChoice {
-  std::string name;  ///< for load_scene() or load_camera(): the file, or what was typed
-  std::string note;  ///< for the user: that the file is taken, and not what is built in; empty where there is no choice
+  std::string name;  ///< name for load_scene() or load_camera(): the file, or what was typed
+  std::string note;  ///< note for the user: the file is taken, and not what is built in; empty where there is no choice
 };
 /// The file counts more than a built-in scene of its name: so the command line and Python take what is typed.
 NameChoice choose_scene(const std::string& typed);
@@ -44,9 +44,9 @@ Camera load_camera(const std::string& file_or_name, const CameraOptions& options
 /// The camera that a scene asks for: its profile, mode and overrides; `options` come on top.
 Camera load_camera(const Scene& scene, const CameraOptions& options = {});
 
-/// The same from texts. `source` stands for the file: messages name it, and what the text names is looked for beside it.
+/// A scene from its text. `source` stands for the file: messages name it, and what the text names is looked for beside it.
 Scene load_scene_text(const std::string& text, const std::string& source, const std::string& root = {});
-/// As load_camera(), likewise.
+/// A camera from its profile's text, as load_camera() reads it. `source` stands for the file.
 Camera load_camera_text(const std::string& text, const std::string& source, const CameraOptions& options = {});
 
 /// A material that scenes may name without describing it, such as "skin" (docs/reference/materials.md).

@@ -72,14 +72,14 @@ struct McapContents {
   };
   std::string file, profile, library;
   bool complete = true;          ///< false: it ends early, and what is here is all up to its last whole chunk
-  std::uint64_t bytes = 0;       ///< of the file
+  std::uint64_t bytes = 0;       ///< size of the file
   std::uint64_t lost_bytes = 0;  ///< behind the last whole record of one that ends early
   std::uint64_t chunks = 0;
-  std::uint64_t unpacked_bytes = 0, packed_bytes = 0;  ///< of all chunks
+  std::uint64_t unpacked_bytes = 0, packed_bytes = 0;  ///< bytes of all chunks
   std::string compression;                             ///< "zstd", "none", or both with "," between
   std::uint64_t messages = 0;
   std::int64_t first_ns = 0, last_ns = 0;
-  std::vector<Channel> channels;                                   ///< in the order of their topics
+  std::vector<Channel> channels;                                   ///< channels in the order of their topics
   std::vector<std::pair<std::string, std::uint64_t>> attachments;  ///< name, bytes
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> metadata;
 };

@@ -27,7 +27,7 @@ enum class StampAt { start, middle, end };
 struct MessageOptions {
   Driver driver = Driver::plain;
   StampAt stamp = StampAt::middle;
-  std::string name = {};  ///< of the camera, the first part of topics and frames: letters, digits and _; empty: the driver's
+  std::string name = {};  ///< name of the camera, the first part of topics and frames: letters, digits and _; empty: the driver's
   /// Out of depth, amplitude, noise, confidence, points, raw, rectified, truth, clock; empty: what the driver has, and raw. camera_info, tf
   /// and diagnostics come along.
   std::vector<std::string> topics = {};
@@ -47,7 +47,7 @@ struct Topic {
 /// One message.
 struct Message {
   std::size_t topic = 0;        ///< its place in Messages::topics()
-  std::int64_t stamp_ns = 0;    ///< as its header has it
+  std::int64_t stamp_ns = 0;    ///< stamp of its header
   std::int64_t publish_ns = 0;  ///< when a camera could have sent it: once the last exposure is read out
   std::string data;             ///< CDR
 };
@@ -69,7 +69,7 @@ class Messages {
   [[nodiscard]] std::vector<Message> of(const Frame& frame) const;
   /// All of a frame whose camera was placed from outside. @param seen  placed_scene() of its request
   [[nodiscard]] std::vector<Message> of(const Frame& frame, const Scene& seen) const;
-  /// The same into memory that is used again.
+  /// All messages of a frame whose camera was placed from outside, into memory that is used again.
   void of(const Frame& frame, const Scene& seen, std::vector<Message>& into) const;
   /// Arrays that a frame needs, by their names in files.
   [[nodiscard]] std::vector<std::string> arrays() const;

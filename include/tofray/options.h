@@ -28,9 +28,9 @@ enum class Backend {
   cuda,  ///< a GPU, or an error that says why not
 };
 
-/// How far the processor is with a frame, for whoever waits for it: read and written from any thread.
+/// Progress of the processor within a frame: read and written from any thread.
 struct FrameProgress {
-  std::atomic<std::int64_t> done{0}, total{0};  ///< in rays, roughly; 0 of 0 before the first frame, and where a GPU computes
+  std::atomic<std::int64_t> done{0}, total{0};  ///< progress in rays, roughly; 0 of 0 before the first frame, and where a GPU computes
   std::atomic<bool> stop{false};                ///< set: the frame under way ends soon, and what it holds means nothing
 };
 
@@ -38,9 +38,9 @@ struct FrameProgress {
 struct SimulatorOptions {
   std::uint64_t seed = 0;
   Noise noise = Noise::exact;
-  int threads = 0;  ///< at most 1024; 0: as many as the machine has cores
+  int threads = 0;  ///< number of threads, at most 1024; 0: as many as the machine has cores
   Backend backend = Backend::automatic;
-  int device = -1;     ///< which GPU, from 0 on; −1: the first one that can be used
+  int device = -1;     ///< number of the GPU, from 0 on; −1: the first one that can be used
   int block_size = 0;  ///< CUDA threads per block, a multiple of 32 up to 1024; 0: chosen
   std::size_t batch_bytes =
       64'000'000;       ///< host memory of one batch on its way from a GPU (or to it); there are three of them for each GPU
@@ -60,10 +60,10 @@ struct SimulatorOptions {
 struct RanOn {
   std::string backend;          ///< "cpu" or "cuda"
   std::string device;           ///< its name: of the GPU, or of the processor's instruction set
-  std::string isa;              ///< of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or "neon"
-  int threads = 0;              ///< of the processor
+  std::string isa;              ///< instruction set of the processor: "scalar", "scalar_fma", "avx2", "avx512" or "neon"
+  int threads = 0;              ///< threads of the processor
   int block_size = 0;           ///< threads per block of the kernel from ray to depth; 0 where the processor computed
-  double occupancy = 0;         ///< how full that kernel makes the GPU, 0 … 1 [1]
+  double occupancy = 0;         ///< share of the GPU that the kernel fills, 0 … 1 [1]
   std::string fallback_reason;  ///< why Backend::automatic took no GPU; empty where it did, or where the processor was asked for
 };
 

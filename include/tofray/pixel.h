@@ -23,7 +23,7 @@ struct PixelArrays {
   /// An array by its name in files, and an element of it in row-major order → its value; NaN where there is no such array or element.
   std::function<double(std::string_view name, std::size_t element)> at;
 };
-/// Those of a frame in memory.
+/// The arrays of a frame in memory.
 PixelArrays pixel_arrays(const Frame& frame);
 
 /// One pixel in one raw frame.
@@ -31,7 +31,7 @@ struct ChainRawFrame {
   bool lit = false;
   double modulation_frequency_hz = 0, reference_phase_rad = 0, integration_time_s = 0;
   double signal_e = 0;                  ///< ground truth S, both taps
-  double direct_e = 0, indirect_e = 0;  ///< by one surface and by several, before the lens scatters them
+  double direct_e = 0, indirect_e = 0;  ///< electrons by one surface and by several, before the lens scatters them
   double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
   double path_noise_m = 0;              ///< the standard error of that                         [theory: eq. 7.13]
   double tap_a_e = 0, tap_b_e = 0;
@@ -65,14 +65,14 @@ struct PixelChain {
   // ground truth
   std::int64_t object = -1;
   double true_range_m = 0, true_z_m = 0;
-  double reflectivity = 0;  ///< of the surface [1]
+  double reflectivity = 0;  ///< reflectivity of the surface [1]
   double incidence_rad = 0;
-  double object_share = 0, mixed = 0;  ///< of samples within the pixel [1]
+  double object_share = 0, mixed = 0;  ///< truth of samples within the pixel [1]
   std::array<double, 3> position_m{};
-  std::array<double, 3> normal{};  ///< of unit length [1]
-  double irradiance_w_m2 = 0;      ///< on the surface [W/m2]
-  double radiance_w_m2_sr = 0;     ///< back from it [W/(m2 sr)]
-  double power_w = 0;              ///< on the pixel
+  std::array<double, 3> normal{};  ///< normal of unit length [1]
+  double irradiance_w_m2 = 0;      ///< irradiance on the surface [W/m2]
+  double radiance_w_m2_sr = 0;     ///< radiance back from it [W/(m2 sr)]
+  double power_w = 0;              ///< power on the pixel
   // measured
   std::vector<ChainRawFrame> raw_frames;
   std::vector<ChainPhase> phases;  ///< one for each modulation frequency
@@ -107,13 +107,13 @@ std::vector<std::vector<double>> correlation_curves(const PixelChain& chain, con
 /// Light that came by way of 1 + b surfaces, b = first … last.
 struct BounceShare {
   int first = 0, last = 0;
-  double share = 0;                 ///< of the electrons of all lit raw frames, 0 … 1 [1]
-  std::vector<double> electrons;    ///< by raw frame, before the lens scatters them [e]
+  double share = 0;                 ///< share of the electrons of all lit raw frames, 0 … 1 [1]
+  std::vector<double> electrons;    ///< electrons by raw frame, before the lens scatters them [e]
   std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]  [theory: eq. 7.8]
 };
 
 /// One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone, so that frames with fewer bounces follow
-/// the beginnings of the same paths: what a bounce adds is the difference of two frames, without error of chance between them.
+/// the beginnings of the same paths: what a bounce adds is the difference of two frames, without Monte Carlo error between them.
 struct PixelBounces {
   std::vector<BounceShare> shares;  ///< direct light first; together gt_direct_e + gt_indirect_e and gt_multipath_m; may be empty
   std::string unknown;              ///< why it is empty although light bounced

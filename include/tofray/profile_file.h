@@ -12,9 +12,9 @@ namespace tofray {
 
 /// A number that CameraOptions::set can change.
 struct ProfileNumber {
-  std::string key;       ///< as CameraOptions::set takes it, such as illumination.0.power
-  std::string unit;      ///< of `value`, `low` and `high`: the one that the profile writes; empty: none
-  double value = 0;      ///< in force
+  std::string key;       ///< key as CameraOptions::set takes it, such as illumination.0.power
+  std::string unit;      ///< unit of `value`, `low` and `high`, as the profile writes it; empty: none
+  double value = 0;      ///< value in force
   double low = 0;        ///< least value that the key may have
   double high = 0;       ///< largest one
   bool whole = false;    ///< whole numbers alone
@@ -33,7 +33,7 @@ struct ProfileFile {
   std::string source;  ///< the file's name; that of a built-in profile stands in angle brackets
   std::string text;
   std::vector<ProfileNumber> numbers;  ///< those in force of one mode
-  std::vector<ProfilePlace> places;    ///< of all values, maps and lists that are written, of all modes
+  std::vector<ProfilePlace> places;    ///< places of all values, maps and lists that are written, of all modes
 };
 
 /// Reads a profile, a built-in name or a YAML file. Places are those of the text, without `options`.

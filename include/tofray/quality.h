@@ -18,20 +18,20 @@ struct ImageRegion {
 
 /// Under which conditions a maker says its numbers; a light meter, a target and a warm camera are the user's to bring.
 struct QualityPreset {
-  std::string name;    ///< for QualityRequest::preset: "basler"
+  std::string name;    ///< name for QualityRequest::preset: "basler"
   std::string maker;   ///< "Basler blaze"
-  int side = 0;        ///< of the square in the middle of the image that is measured; 0: the whole image
-  int frames = 1;      ///< that are taken
-  std::string target;  ///< what the camera looks at, and in which light
-  std::string stated;  ///< what the maker says of its camera; empty: nothing that could be cited
+  int side = 0;        ///< side of the square in the middle of the image that is measured; 0: the whole image
+  int frames = 1;      ///< number of frames that are taken
+  std::string target;  ///< target and light of the maker's measurement
+  std::string stated;  ///< the maker's statement of its camera; empty: none that could be cited
 };
-/// Those that have a name.
+/// Makers' conditions that have a name.
 const std::vector<QualityPreset>& quality_presets();
 
 /// What is measured, and against what.
 struct QualityRequest {
   ImageRegion region;
-  std::string preset;  ///< of quality_presets(): its region, where `region` is empty, and notes; empty: none
+  std::string preset;  ///< name of one of quality_presets(): its region, where `region` is empty, and notes; empty: none
   double truth_m = 0;  ///< true z of the wall on the optical axis; 0: what the truth says, where it is given
 };
 
@@ -41,13 +41,13 @@ struct QualityRequest {
 struct Quality {
   ImageRegion region;
   int frames = 0;
-  std::vector<std::string> notes;  ///< how the frames differ from the preset's conditions
+  std::vector<std::string> notes;  ///< differences between the frames and the preset's conditions
 
   double fill_rate_percent = 0;       ///< RealSense: valid pixels over all pixels
   double plane_distance_m = 0;        ///< z of the plane on the optical axis; planes are fitted to all valid points
   double plane_tilt_rad = 0;          ///< between the plane's normal and the optical axis
   double plane_fit_rms_m = 0;         ///< RealSense: √(Σd²/n) of distances d to the plane, without the 0.5 % of least and of largest z
-  double plane_fit_rms_percent = 0;   ///< that over plane_distance_m
+  double plane_fit_rms_percent = 0;   ///< plane_fit_rms_m over plane_distance_m
   double z_accuracy_percent = 0;      ///< RealSense: median of (plane_distance_m − truth + d) over the truth; above 0: too far
   double temporal_noise_percent = 0;  ///< RealSense: median over pixels of σ over median, each over the frames; divisor n; never valid: 0
 

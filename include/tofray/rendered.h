@@ -18,7 +18,7 @@ namespace tofray {
 
 /// A camera without distortion, as renderers have it: what is at (x, y, z) before it is seen at (fx·x/z + cx, fy·y/z + cy).
 struct Pinhole {
-  int width = 0, height = 0;  ///< of the picture, pixels; row 0 is the topmost
+  int width = 0, height = 0;  ///< size of the picture in pixels; row 0 is the topmost
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   /// Where the middle of the first pixel is: 0.5 where numbers count from the picture's corner, as OpenGL, Blender, Open3D and most simulators
   /// have it; 0 where they count from that middle, as OpenCV, ROS and tofray's lenses do [px].
@@ -56,7 +56,7 @@ struct RenderedPictures {
   std::span<const float> reflectivity;          ///< [moment][height][width] 0…1, at the illumination wavelength
   std::span<const float> colour;                ///< [moment][height][width][3] 0…1, linear: its mean stands for reflectivity
   std::span<const std::uint8_t> screen_colour;  ///< [moment][height][width][3] the same as screens take it (sRGB), which is decoded
-  std::optional<double> other_reflectivity;     ///< of what neither labels nor pictures say
+  std::optional<double> other_reflectivity;     ///< reflectivity of what neither labels nor pictures say
 };
 
 /// Pictures as the camera's rays see them.

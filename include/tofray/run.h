@@ -37,7 +37,7 @@ struct InputRequest {
   std::string scene;  ///< a scene's file, a built-in scene, or a mesh alone (.obj, .ply, .stl, .gltf, .glb)
   /// Dotted key and value as written in YAML, in order: {"camera.lens.f_number", "1.2"}.
   std::vector<std::pair<std::string, std::string>> set;
-  std::string mode;  ///< of the camera; empty: the one that the scene names, or the profile's first
+  std::string mode;  ///< mode of the camera; empty: the one that the scene names, or the profile's first
   std::string root;  ///< files that the scene names have to lie in or below its own folder, or in or below this one where it is not empty
   /// A manifest.json: where not empty, scene, profile and tables come from the texts in it, and `scene` does not count.
   std::string manifest = {};
@@ -48,7 +48,7 @@ struct Inputs {
   Scene scene;
   Camera camera;
   std::vector<InputFile> files;  ///< the scene first
-  std::vector<Remark> remarks;   ///< what is odd about them and can be simulated all the same
+  std::vector<Remark> remarks;   ///< remarks on the inputs, which can be simulated all the same
 };
 
 /// Reads the scene and the camera that it asks for, with all that is changed of them.
@@ -59,12 +59,12 @@ Inputs load_inputs(const InputRequest& request);
 struct FrameFileRequest {
   /// Out of npz, png, ply, and mcap: one run.mcap of all frames (run_0120.mcap from frame 120 on); none: the first three for one frame, npz for several.
   std::optional<std::vector<std::string>> emit = {};
-  std::string arrays;                               ///< of frame.npz: names, `all`, groups, with "," between, as in `--arrays`; empty: all
-  bool compress = false;                            ///< frame.npz deflated
-  bool light_theme = false;                         ///< preview.png and raw.png on white
-  int scale = 1;                                    ///< of these pictures, 1…8
-  MessageOptions messages = {};                     ///< of run.mcap
-  std::optional<McapCompression> compression = {};  ///< of its chunks; none: the usual one
+  std::string arrays;            ///< arrays of frame.npz, as in `--arrays`: names, `all`, groups, with "," between; empty: all
+  bool compress = false;         ///< frame.npz deflated
+  bool light_theme = false;      ///< preview.png and raw.png on white
+  int scale = 1;                 ///< scale of these pictures, 1…8
+  MessageOptions messages = {};  ///< options of the messages in run.mcap
+  std::optional<McapCompression> compression = {};  ///< compression of its chunks; none: the usual one
 };
 
 /// What a run is asked for.
@@ -75,26 +75,26 @@ struct RunRequest {
   std::optional<std::uint64_t> frames = {};
   std::uint64_t first_frame = 0;
   FrameFileRequest files;
-  std::filesystem::path folder;      ///< for the files; empty: the scene's name
+  std::filesystem::path folder;      ///< folder for the files; empty: the scene's name
   bool clean = false;                ///< remove what an earlier run left in the folder, where it is as that run wrote it
-  std::vector<std::string> command;  ///< for people who read manifest.json: what was typed
+  std::vector<std::string> command;  ///< the command as it was typed, for readers of manifest.json
 };
 
 /// How a run went.
 struct RunResult {
   std::filesystem::path folder;
   std::vector<FileRecord> files;  ///< manifest.json last
-  std::uint64_t frames = 0;       ///< how many are complete
+  std::uint64_t frames = 0;       ///< number of complete frames
   bool interrupted = false;       ///< fewer than were asked for
-  std::vector<Remark> remarks;    ///< of the inputs, the scene as the camera sees it, the frames, the folder
-  Validity last;                  ///< of the last frame's depth
+  std::vector<Remark> remarks;    ///< remarks on the inputs, the scene as the camera sees it, the frames, the folder
+  Validity last;                  ///< validity of the last frame's depth
   RanOn ran_on;
-  std::vector<std::pair<std::string, double>> timings_s;  ///< by stage: prepare, simulate, write
+  std::vector<std::pair<std::string, double>> timings_s;  ///< seconds by stage: prepare, simulate, write
 };
 
-/// Whoever watches a run. All of it may be left empty.
+/// Callbacks of a run. All of them may be left empty.
 struct RunWatch {
-  FrameProgress* progress = nullptr;               ///< of the frame under way; its `stop` ends the run with the last whole frame
+  FrameProgress* progress = nullptr;               ///< progress of the frame under way; its `stop` ends the run with the last whole frame
   std::function<void(const Remark&)> remark = {};  ///< told each as soon as it is known
   std::function<void(const RanOn&)> started = {};  ///< told what computes, before the first frame
   /// Shown each frame when it is done (good until this returns), and told how many are.

@@ -53,8 +53,8 @@ struct Material {
   /// How a mesh's normal leans from place to place: its parts along growing u, against growing v, and along the normal that the mesh has,
   /// −1…1, the last one above 0, of length 0.5…1.5. None: it does not.
   std::shared_ptr<const VectorMap> normals = {};
-  /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for those
-  /// who look; `map` scales k_d, too. None: they are the same everywhere.
+  /// GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and `alpha`, which then are a mean for
+  /// callers; `map` scales k_d, too. None: they are the same everywhere.
   std::shared_ptr<const VectorMap> finish = {};
   /// Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light and camera look through the rest. Texels of the
   /// other pictures that lie where it is less count in no mean. None: everywhere.
@@ -134,25 +134,25 @@ struct Mesh {
   enum class Up { automatic, y, z, minus_y, none };
   enum class Play { still, once, loop };
   std::string file;              ///< empty if built in code
-  double scale = 1;              ///< of the file's numbers, to metres
+  double scale = 1;              ///< scale from the file's numbers to metres
   Up up = Up::automatic;         ///< the file's axis that is up, turned to Scene::world_up; automatic: y in OBJ and glTF, z in PLY and STL;
                                  ///< none: the file's axes are the world's
-  std::string animation;         ///< of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
-  std::optional<double> time_s;  ///< of that animation; none: as its nodes stand
-  Play play = Play::still;       ///< whether that animation goes on, from `time_s` (or its start) at t = 0
-  std::string sha256;  ///< of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
+  std::string animation;         ///< animation of a glTF file: a name, a number from 0 on, or "all" at once; empty: the first
+  std::optional<double> time_s;  ///< time of that animation; none: the file's rest pose
+  Play play = Play::still;       ///< whether that animation plays, from `time_s` (or its start) at t = 0
+  std::string sha256;  ///< SHA-256 of the file's bytes and those of the files that it names, as hexadecimal digits; empty if built in code
   int left_out = 0;    ///< triangles of the file with a corner that is no finite number, or beyond 1e5 m
   int guessed = 0;     ///< materials of the file whose visible colour stands for their reflectivity
   std::vector<std::string> notices;               ///< sentences: what else of the file is left out, or mended
-  std::shared_ptr<const TriangleMesh> triangles;  ///< what is seen: already turned and scaled; objects may share it
-  std::shared_ptr<const MeshMotion> motion;       ///< how it changes its shape; none: it does not
+  std::shared_ptr<const TriangleMesh> triangles;  ///< the triangles, turned and scaled already; objects may share them
+  std::shared_ptr<const MeshMotion> motion;       ///< motion of the vertices; none: the mesh keeps its shape
 };
 
 /// A turn by the right-hand rule about `axis` (any length but zero).
 struct Rotation {
   Vec3 axis{0, 0, 1};
   double angle_rad = 0;
-  std::optional<Quaternion> quaternion = {};  ///< in place of axis and angle: x, y, z, w
+  std::optional<Quaternion> quaternion = {};  ///< rotation in place of axis and angle: x, y, z, w
 };
 
 /// Where an object is at a time. Between two of them its shift changes evenly, and it turns evenly: where both rotations are about the same
@@ -174,13 +174,13 @@ struct Object {
   Rotation rotation{};
   Vec3 velocity_m_per_s{0, 0, 0};
   Vec3 angular_velocity_rad_per_s{0, 0, 0};  ///< its axis, in the world, times how fast it turns by the right-hand rule
-  std::vector<Keyframe> keyframes = {};      ///< in place of position, rotation and both velocities; ascending in time
-  std::string class_name = {};               ///< what kind of thing it is, for Truth::class_id; empty: none
-  std::string key = {};                      ///< how its file addresses it, e.g. "objects.2"; empty if built in code
+  std::vector<Keyframe> keyframes = {};      ///< poses in place of position, rotation and both velocities; ascending in time
+  std::string class_name = {};               ///< class of the object, for Truth::class_id; empty: none
+  std::string key = {};                      ///< address in its file, e.g. "objects.2"; empty if built in code
   std::string where = {};                    ///< file:line:col for messages; empty if built in code
 };
 
-/// Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+/// Ambient light: all but the camera's illumination. One of level, illuminance and band irradiance says how much.
 struct Ambient {
   enum class Spectrum { none, sun_am15, equal_energy, table };
   enum class Quantity {
@@ -190,7 +190,7 @@ struct Ambient {
   };
   Spectrum spectrum = Spectrum::none;
   Quantity quantity = Quantity::level;
-  double amount = 0;                              ///< in the quantity's unit
+  double amount = 0;                              ///< amount in the quantity's unit
   std::vector<double> table_wavelength_m;         ///< spectrum `table`: ascending
   std::vector<double> table_irradiance_w_per_m3;  ///< spectral irradiance per metre of wavelength (1 W m-2 nm-1 = 1e9 W m-3)
   std::optional<Vec3> direction;                  ///< direction in which the light travels (a sun); none: uniform from everywhere
@@ -200,19 +200,19 @@ struct Ambient {
 /// shared between the two bins whose centres are nearest.
 struct TransientBins {
   int bins = 0;           ///< 0…1e6; 0: there are no histograms
-  double first_m = 0;     ///< 0…1e6: where the first bin begins. Whole paths: from the light by all surfaces to the camera
-  double width_m = 1e-3;  ///< 1e-6…1e6, of a bin
+  double first_m = 0;     ///< 0…1e6: path length at which the first bin begins, from the light by all surfaces to the camera
+  double width_m = 1e-3;  ///< 1e-6…1e6: width of a bin in path length
 };
 
-/// How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 + bounces of them. Which ways it takes is
-/// chosen by chance, but the same for all frames: it is no noise of the camera's. Arrays in place of the scene bounce nothing.
+/// Multipath: light that meets 1, 2 … 1 + bounces surfaces before it reaches the camera. Light paths are Monte Carlo samples, the same for
+/// all frames: their error is no noise of the camera. Arrays in place of the scene bounce nothing.
 struct Transport {
-  int bounces = 0;              ///< 0…64; 0: light comes straight back from the surface that the lights shine on
-  int samples = 16;             ///< 1…65536: ways of light for each pixel, where it bounces; an odd number is rounded up
-  unsigned long long seed = 0;  ///< another one: other ways, the same light but for their error
-  int max_samples = 0;          ///< 0: as many as samples. Else a pixel goes on, twice as many again and again, up to these, until it knows
-  double path_noise_m = 0;      ///< its half path to this standard error; 0: to a fifth of its depth noise
-  bool smooth = false;          ///< light that bounces is smoothed over neighbours that see the same surface
+  int bounces = 0;              ///< 0…64: maximum number of bounces, surfaces beyond the first one; 0: no multipath
+  int samples = 16;             ///< 1…65536: light paths per pixel (Monte Carlo samples); an odd number is rounded up
+  unsigned long long seed = 0;  ///< seed of the light paths: another one draws other paths of the same light
+  int max_samples = 0;          ///< most light paths per pixel: their number is doubled until path_noise_m is reached; 0: samples
+  double path_noise_m = 0;      ///< standard error of the half path at which a pixel has enough paths; 0: a fifth of its depth noise
+  bool smooth = false;          ///< whether light that bounces is smoothed over neighbours that see the same surface
   TransientBins transient = {};
 };
 
@@ -221,7 +221,7 @@ struct Pose {
   Vec3 position{0, 0, 0};
   Vec3 look_at{0, 0, 1};                      ///< a point on the optical axis
   Vec3 up{0, -1, 0};                          ///< direction in the world that is up in the image
-  std::optional<Quaternion> quaternion = {};  ///< from the camera's frame to the world's, as x, y, z, w; in place of look_at and up
+  std::optional<Quaternion> quaternion = {};  ///< rotation from camera to world, as x, y, z, w; in place of look_at and up
 };
 
 /// Where the camera stands at a time. Between two of them its position changes evenly. Where one has a quaternion it turns evenly, the
@@ -245,15 +245,15 @@ struct CameraChoice {
   std::string profile = "pico-flexx";  ///< a built-in name or a file
   std::string mode;                    ///< empty: the profile's first
   Pose pose;
-  std::vector<CameraKeyframe> keyframes = {};  ///< in place of the pose; ascending in time
+  std::vector<CameraKeyframe> keyframes = {};  ///< poses in place of the pose; ascending in time
   std::vector<Override> overrides = {};
   std::string profile_where, mode_where;  ///< file:line:col for messages; empty if built in code
 };
 
 /// A file that a scene was read from, beside its own and those of meshes.
 struct SceneFile {
-  std::string file;    ///< as the scene names it
-  std::string sha256;  ///< of its bytes, as hexadecimal digits
+  std::string file;    ///< name in the scene
+  std::string sha256;  ///< SHA-256 of its bytes, as hexadecimal digits
 };
 
 /// All that is seen, in which light, and which camera looks at it.
@@ -269,7 +269,7 @@ struct Scene {
   /// The world's axis that is up. In files, what is not said follows from it: where a camera looks, what is up in its image, how the axes of
   /// meshes are turned. In code nothing does.
   Up world_up = Up::minus_y;
-  std::vector<SceneFile> files = {};  ///< of keyframes
+  std::vector<SceneFile> files = {};  ///< files of keyframes
   /// Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the order of their letters.
   std::vector<std::string> classes = {};
 };

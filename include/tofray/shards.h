@@ -12,13 +12,13 @@
 /// Data sets in files: a plan, and shards of samples, which any number of processes and machines make together. As load.h, of libtofray_files.
 ///
 /// The plan is the set; shards are what has been computed of it. A shard is a tar of plain .npy and .json files; a record beside it exists exactly when it is
-/// complete, and nothing else is state: whoever is killed, or does the same shard twice, leaves the same bytes.
+/// complete, and nothing else is state: a process that is killed, or makes the same shard twice, leaves the same bytes.
 namespace tofray {
 
 /// What a set's plan is made of.
 struct PlanRequest {
   std::string set;               ///< the set's file
-  std::filesystem::path folder;  ///< for the plan and its shards
+  std::filesystem::path folder;  ///< folder for the plan and its shards
   std::uint64_t pilot = 8;       ///< samples that are computed, spread over the set, to see how large and how slow they are; at least 1
   /// Samples in a shard; 0: so many that a shard has 64 MiB to 1 GiB and takes one core at most 10 minutes, as the pilot was.
   std::uint64_t shard_samples = 0;
@@ -31,13 +31,13 @@ struct DatasetPlan {
   std::string id;  ///< SHA-256 of all that decides bytes of samples; not of how many there are
   std::string name, license;
   std::uint64_t samples = 0, views = 1, shard_samples = 0, shards = 0;
-  std::vector<std::string> arrays;  ///< that every sample has
-  std::uint64_t sample_bytes = 0;   ///< of one sample with all its views in a shard: the pilot's mean
+  std::vector<std::string> arrays;  ///< arrays of every sample
+  std::uint64_t sample_bytes = 0;   ///< bytes of one sample with all its views in a shard: the pilot's mean
   /// What plan_dataset() found in the folder.
   enum class Found { nothing, same, fewer_samples } found = Found::nothing;
   // of the pilot; 0 where the same plan was there
-  double sample_seconds = 0;               ///< of one core, mean
-  std::uint64_t pixels = 0, valid = 0;     ///< of all its frames, and those with depth
+  double sample_seconds = 0;               ///< seconds of one core per sample, mean
+  std::uint64_t pixels = 0, valid = 0;     ///< pixels of all its frames, and those with depth
   std::uint64_t pilot = 0;                 ///< samples that it has
   double least_valid = 1, most_valid = 0;  ///< shares of one view's pixels
   std::uint64_t peak_bytes = 0;            ///< most memory that this process has taken, with as many threads as were asked for
@@ -79,7 +79,7 @@ struct ShardRunResult {
   bool interrupted = false;
 };
 
-/// Whoever watches shards being made or read. All of it may be left empty.
+/// Callbacks while shards are made or read. All of them may be left empty.
 struct ShardWatch {
   std::function<void(std::uint64_t done, std::uint64_t total)> samples =
       {};  ///< of the shards that are to be made; of verify_shards(): shards
@@ -115,7 +115,7 @@ struct VerifyRequest {
 struct ShardFault {
   std::uint64_t shard = 0;
   std::string what;
-  std::vector<std::string> members;  ///< of the tar, that are damaged or differ: "000000123.raw.npy"
+  std::vector<std::string> members;  ///< members of the tar that are damaged or differ: "000000123.raw.npy"
 };
 
 /// What was found.
@@ -139,7 +139,7 @@ struct MergeResult {
       files;  ///< that were written: SHA256SUMS, statistics.json, wids.json, card.md, croissant.json, preview.html, index/…
 };
 
-/// Sums up a set that is complete: index, statistics, SHA256SUMS and a list for the webdataset library. The same bytes whoever made the shards.
+/// Sums up a set that is complete: index, statistics, SHA256SUMS and a list for the webdataset library. The same bytes whichever processes made the shards.
 /// @param partial  of the shards that are there
 /// @throws Error (bad_input) where shards are missing, or two of them read different files of one name
 MergeResult merge_shards(const std::filesystem::path& folder, bool partial = false);

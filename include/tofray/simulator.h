@@ -30,29 +30,29 @@ struct Placement {
 struct PlacedObject {
   /// Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file has several materials is one.
   std::string name;
-  Placement start = {};                  ///< at the frame's start
+  Placement start = {};                  ///< placement at the frame's start
   std::optional<Placement> end = {};     ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
-  std::vector<Keyframe> keyframes = {};  ///< in place of both, by the scene's time, ascending
+  std::vector<Keyframe> keyframes = {};  ///< placements in place of both, by the scene's time, ascending
 };
 
 /// Which frame. What is not set is the simulator's.
 struct FrameRequest {
   std::uint64_t index = 0;  ///< chooses the noise; starts at index / frame_rate
   std::optional<std::uint64_t> seed = {};
-  std::optional<Pose> pose = {};      ///< of the camera, at the frame's start
+  std::optional<Pose> pose = {};      ///< pose of the camera at the frame's start
   std::optional<Pose> pose_end = {};  ///< where the next frame starts: it goes there evenly, and on as far again; none: it stands still
-  std::vector<CameraKeyframe> camera = {};  ///< in place of both poses, by the scene's time, ascending
+  std::vector<CameraKeyframe> camera = {};  ///< poses in place of both poses, by the scene's time, ascending
   std::vector<PlacedObject> objects = {};   ///< those that are placed from outside; the others move as the scene says
   std::optional<double> start_time_s = {};  ///< -1e6…1e6: when it starts, in place of index / frame_rate
 };
 
 /// One step of how a frame is computed: a pass over all of its pixels, before the next one begins.
 struct PlanStep {
-  std::string name;         ///< of the pass: "from_rays", "bounces", "range_filter" …
+  std::string name;         ///< name of the pass: "from_rays", "bounces", "range_filter" …
   std::string does;         ///< what it does, in a few words
   std::string part;         ///< "ground truth", "sample 2 of 9", "paths, step 1": what of it, where it is done in parts
   std::string over;         ///< "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once
-  std::int64_t pieces = 0;  ///< how many of these there are
+  std::int64_t pieces = 0;  ///< number of pieces
 };
 
 /// Frames that stay in a GPU's memory.
@@ -89,9 +89,9 @@ class Simulator {
   /// Frame i starts at i / frame_rate. Where Decoding::temporal_frames is more than 1, so many frames less one are computed before it, but for
   /// those that were computed last.
   [[nodiscard]] Frame frame(std::uint64_t index);
-  /// The same into memory that the caller keeps: arrays of the right size are not allocated anew.
+  /// Frame `index`, into memory that the caller keeps: arrays of the right size are not allocated anew.
   void frame(std::uint64_t index, Frame& into);
-  /// The same of a frame with a seed of its own, or whose camera and objects are placed from outside: the bytes are those of placed_scene,
+  /// A frame with a seed of its own, or whose camera and objects are placed from outside: the bytes are those of placed_scene,
   /// at the request's time. The first request that places other objects than those before takes as long as a new simulator, and as much
   /// memory; the last four such sets stay. Then nothing is built anew: neither a mesh's hierarchy nor the camera.
   /// @throws Error (bad_input) for a pose that cannot be, an object that is not there or that two share the name of, and keyframes that do not
@@ -103,11 +103,11 @@ class Simulator {
   [[nodiscard]] Frame frame(std::uint64_t index, const Geometry& seen);
   void frame(std::uint64_t index, const Geometry& seen, Frame& into);
   /// Stages 3 and 4 of light that was computed elsewhere; nothing of the scene counts. Truth: power_w and signal_e, the rest is unknown.
-  /// @throws Error (bad_input) as above
+  /// @throws Error (bad_input) as for a Geometry
   [[nodiscard]] Frame frame(std::uint64_t index, const PixelLight& light);
   void frame(std::uint64_t index, const PixelLight& light, Frame& into);
-  /// The same of light by the length of its path. Truth: signal_e, the rest is unknown.
-  /// @throws Error (bad_input) as above, where there is no light source or no lit raw frame, and where light sources differ in waveform;
+  /// Stages 3 and 4 of light by the length of its path, computed elsewhere. Truth: signal_e, the rest is unknown.
+  /// @throws Error (bad_input) as for a Geometry, where there is no light source or no lit raw frame, and where light sources differ in waveform;
   /// (limit) for histograms that are too large
   [[nodiscard]] Frame frame(std::uint64_t index, const Transient& light);
   void frame(std::uint64_t index, const Transient& light, Frame& into);
@@ -119,8 +119,8 @@ class Simulator {
   /// @throws Error for a request that cannot be, as frame: before the first frame
   void frames(std::uint64_t first, std::uint64_t count, const std::function<void(const FrameArrays&)>& take);
   void frames(std::span<const FrameRequest> requests, const std::function<void(const FrameArrays&)>& take);
-  /// The same, left in the GPU's memory, which `into` holds and uses again where it is large enough.
-  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as above, and for requests
+  /// Many frames as frames() makes them, left in the GPU's memory, which `into` holds and uses again where it is large enough.
+  /// @throws Error (device) where the processor computes, or where the memory is too small for them; (bad_input) as frames(), and for requests
   /// that do not all place the same objects
   void frames_on_device(std::uint64_t first, std::uint64_t count, DeviceFrames& into);
   void frames_on_device(std::span<const FrameRequest> requests, DeviceFrames& into);

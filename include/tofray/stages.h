@@ -71,7 +71,7 @@ struct Transient {
 struct ImageSize {
   int width = 0, height = 0;
 };
-/// Those of the sensor that are read, binned ones as one (theory 4.8): the size of all arrays of a frame, and of those given to a stage.
+/// Size of the image that is read from the sensor, binned pixels as one (theory 4.8): the size of all arrays of a frame, and of those given to a stage.
 /// @throws Error as a Simulator's constructor does for this camera
 ImageSize image_size(const Camera& camera);
 

@@ -22,8 +22,8 @@ struct SweepAxis {
   /// A key of the scene or of its camera, "camera.illumination.0.power"; `*` in place of an index means all elements of a list, which then have
   /// the same value. `mode` is the camera's mode, `camera.profile` the camera.
   std::string key;
-  std::vector<std::string> values;  ///< as `--set` takes them: "0.2 W"
-  std::vector<double> numbers;      ///< of a key whose value is a number: the same in SI units; else empty
+  std::vector<std::string> values;  ///< values as `--set` takes them: "0.2 W"
+  std::vector<double> numbers;      ///< values in SI units, of a key whose value is a number; else empty
   std::string unit;                 ///< SI unit of these; empty: none
   Stage stage = Stage::trace;       ///< the first stage that looks at the key
 };
@@ -33,10 +33,10 @@ struct SweepAxis {
 /// @param inputs  the scene of which it is a key; a key of a profile may leave "camera." away
 /// @throws Error (bad_input) for a key that is not there, with the nearest ones, and for a value that it cannot have
 SweepAxis sweep_axis(const std::string& text, const InputRequest& inputs);
-/// The same of values that are there one by one. @throws Error as above
+/// An axis of a key and its values, one by one. @throws Error as the function of a text
 SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& values, const InputRequest& inputs);
 
-/// The same of numbers in SI units, of a key whose value is a number. @throws Error as above
+/// An axis of a key and its numbers in SI units, where the key's value is a number. @throws Error as the function of a text
 SweepAxis sweep_axis_of_numbers(const std::string& key, const std::vector<double>& numbers, const InputRequest& inputs);
 
 /// A number that a cell has of each region.
@@ -51,12 +51,12 @@ const std::vector<SweepMetric>& sweep_metrics();
 /// What is simulated and measured.
 struct SweepRequest {
   InputRequest inputs;
-  std::vector<SweepAxis> axes;  ///< of sweep_axis(); at least one
+  std::vector<SweepAxis> axes;  ///< axes of sweep_axis(); at least one
   /// Seed, noise, threads, exposure_samples, subpixel. `arrays` are computed besides those that metrics need, for SweepWatch::frame; it is the
   /// processor that computes.
   SimulatorOptions simulator;
   std::uint64_t repeat = 1;          ///< frames of each cell, 1…1e6: those of `render --frames`
-  ImageRegion region;                ///< that is measured; empty: the whole image
+  ImageRegion region;                ///< region that is measured; empty: the whole image
   bool by_object = false;            ///< besides, each object's own pixels of it
   std::vector<std::string> metrics;  ///< names of sweep_metrics(), whose unit may be left away: "bias"; empty: all
 };
@@ -69,11 +69,11 @@ struct Sweep {
   std::vector<double> values;        ///< [axis 0][axis 1]…[region][metric]
   std::uint64_t repeat = 1;          ///< frames of each cell
   bool interrupted = false;          ///< FrameProgress::stop was set: values mean nothing
-  std::uint64_t traced = 0;          ///< how often frames began with rays
-  std::uint64_t from_light = 0;      ///< … with light that was there
-  std::uint64_t from_raw = 0;        ///< … with raw frames that were there
-  double seconds = 0;                ///< that it took
-  std::vector<InputFile> files;      ///< that the first cell was made of
+  std::uint64_t traced = 0;          ///< number of frames that began with rays
+  std::uint64_t from_light = 0;      ///< number of frames that began with light that was there
+  std::uint64_t from_raw = 0;        ///< number of frames that began with raw frames that were there
+  double seconds = 0;                ///< duration of the sweep [s]
+  std::vector<InputFile> files;      ///< files that the first cell was made of
   RanOn ran_on;
 
   /// How many combinations there are.
@@ -84,7 +84,7 @@ struct Sweep {
   [[nodiscard]] double value(std::uint64_t cell, std::size_t region, std::size_t metric) const;
 };
 
-/// Whoever watches a sweep. All of it may be left empty; no two are called at once.
+/// Callbacks of a sweep. All of them may be left empty; no two are called at once.
 struct SweepWatch {
   FrameProgress* progress = nullptr;                                 ///< its `stop` ends the sweep
   std::function<void(const Remark&)> remark = {};                    ///< told what is odd about the first cell's inputs

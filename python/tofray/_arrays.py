@@ -27,15 +27,15 @@ class Raw(Part):
     raw : uint16 array [phase, height, width], DN
         The ADC's code of A-B.
     modulation_frequency_hz : float64 array [phase], Hz
-        0 where unlit.
+        Modulation frequency, 0 where unlit.
     reference_phase_rad : float64 array [phase], rad
-        Tau, 0 where unlit.
+        Reference phase tau, 0 where unlit.
     integration_time_s : float64 array [phase], s
-        How long light is collected.
+        Time for which light is collected.
     start_time_s : float64 array [phase], s
-        0: the scene as written.
+        Start of the exposure; at 0 the scene is as written.
     lit : uint8 array [phase], 1
-        The camera's own light is on.
+        The camera's illumination is on.
     """
 
     __slots__ = ()
@@ -69,23 +69,23 @@ class Depth(Part):
     Attributes
     ----------
     z_m : float32 array [height, width], m
-        Along the optical axis.
+        Depth along the optical axis.
     range_m : float32 array [height, width], m
-        Along the pixel's ray.
+        Range along the pixel's ray.
     points_m : float32 array [height, width, 3], m
         x, y, z of the surface point.
     amplitude_e : float32 array [height, width], e
         Mean of the modulation frequencies' amplitudes.
     ambient_e : float32 array [height, width], e
-        Of both taps, per lit (if none: mean) exposure.
+        Ambient charge of both taps, per lit exposure (if none is lit: per mean exposure).
     noise_m : float32 array [height, width], m
         The camera's estimate of the range's noise, 1 sigma; without wrong cycles, and too low of weak signals (theory 4.4).
     confidence : uint8 array [height, width], 1
-        0 to 255: by the noise, and how sure the cycle is.
+        0 to 255, by the noise and the certainty of the cycle.
     amplitude_by_frequency_e : float32 array [frequency, height, width], e
-        Of each modulation frequency; asked.
+        Amplitude of each modulation frequency; asked.
     range_by_frequency_m : float32 array [frequency, height, width], m
-        Range that each modulation frequency says alone, in the cycle below; asked.
+        Range by each modulation frequency alone, in the cycle of cycle_by_frequency; asked.
     cycle_by_frequency : int32 array [frequency, height, width], 1
         Whole cycles that unwrapping added, or -1; asked.
     flags : uint16 array [height, width], 1
@@ -129,9 +129,9 @@ class Truth(Part):
     Attributes
     ----------
     range_m : float32 array [height, width], m
-        Along the pixel's ray.
+        Range along the pixel's ray.
     z_m : float32 array [height, width], m
-        Along the optical axis.
+        Depth along the optical axis.
     reflectivity : float32 array [height, width], 1
         Albedo (Phong: diffuse + specular).
     position_m : float32 array [height, width, 3], m
@@ -149,43 +149,43 @@ class Truth(Part):
     texcoord : float32 array [height, width, 2], 1
         u, v of TriangleMesh::texcoords, v down the picture, or NaN.
     velocity_m_per_s : float32 array [height, width, 3], m/s
-        Scene flow: of the point, camera frame.
+        Scene flow: velocity of the point, camera frame.
     flow_px : float32 array [height, width, 2], px
         u, v: optical flow to one frame later.
     mixed : uint8 array [height, width], 1
-        Several objects or > 5 cm of range; sub-pixel samples.
+        The pixel sees several objects or > 5 cm of range; sub-pixel samples.
     object_share : float32 array [height, width], 1
-        Of the pixel, what sees gt_object_id; likewise.
+        Share of the pixel that sees gt_object_id; sub-pixel samples.
     irradiance_w_m2 : float32 array [height, width], W/m2
-        Own light on the surface.
+        Irradiance of the surface by the camera's illumination.
     radiance_w_m2_sr : float32 array [height, width], W/(m2 sr)
-        Own light toward the camera.
+        Radiance toward the camera by the camera's illumination.
     power_w : float32 array [height, width], W
-        Own light on the pixel.
+        Power on the pixel by the camera's illumination.
     ambient_e_per_s : float32 array [height, width], e/s
         Ambient light on the pixel, both taps.
     signal_e : float32 array [phase, height, width], e
-        Electrons to expect, both taps, 0 unlit.
+        Expected electrons by the camera's illumination, both taps, 0 unlit.
     direct_e : float32 array [phase, height, width], e
-        By one surface alone, before lens scatter; bounces.
+        Expected electrons by one surface alone, before lens scatter; bounces.
     indirect_e : float32 array [phase, height, width], e
-        By several surfaces, before lens scatter; bounces.
+        Expected electrons by several surfaces, before lens scatter; bounces.
     raw_dn : float32 array [phase, height, width], DN
-        What raw is without noise, before it is rounded; asked.
+        Raw without noise, before rounding; asked.
     raw_direct_dn : float32 array [phase, height, width], DN
-        The same of light by one surface alone, before lens scatter; bounces, asked.
+        Raw without noise and of light by one surface alone, before rounding and lens scatter; bounces, asked.
     phase_flow_px : float32 array [phase, height, width, 2], px
         u, v: optical flow from each raw frame to gt_time_s; asked.
     multipath_m : float32 array [phase, height, width], m
-        Half path of all - of direct light, NaN unlit; bounces.
+        Half path of all light less that of direct light, NaN unlit; bounces.
     path_noise_m : float32 array [phase, height, width], m
         Standard error of gt_multipath_m; bounces.
     path_count : int32 array [height, width], 1
-        Ways of light that were followed; bounces.
+        Light paths that were followed (Monte Carlo samples); bounces.
     transient_e_per_s : float32 array [bin, height, width], e/s
-        Own light by path length, before lens scatter; transient.
+        Light of the camera's illumination by path length, before lens scatter; transient.
     transient_lost_e_per_s : float32 array [height, width], e/s
-        Own light of lengths that have no bin; transient.
+        Light of the camera's illumination outside all bins; transient.
     """
 
     __slots__ = ()

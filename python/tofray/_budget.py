@@ -24,7 +24,7 @@ class Budget(Dict[str, Any]):
     arrays : dict
         The arrays.
     summary : dict
-        What does not hang on the distance: ``ambiguity_range_m``, ``reach_m`` [ambient, reflectivity], ``mean_power_w`` and others.
+        What does not depend on the distance: ``ambiguity_range_m``, ``reach_m`` [ambient, reflectivity], ``mean_power_w`` and others.
     ambients : list of str
         Names of the ambient lights.
     """

@@ -148,7 +148,7 @@ def wrapped(phase: Any) -> Any:
 
 
 def _orders(phases: int, orders: Sequence[int] | None) -> list[int]:
-    """Those that reference phases let through: multiples of their number, of an odd one of twice as much."""
+    """Orders of harmonics that reference phases let through: multiples of their number, of an odd one of twice as much."""
     base = phases if phases % 2 == 0 else 2 * phases
     wanted = sorted({base, 2 * base, 3 * base} if orders is None else set(orders))
     if any(not 1 <= one <= _HIGHEST for one in wanted):
@@ -301,7 +301,7 @@ def calibrate_temperature(camera: Camera, walls: Iterable[tuple[float, Iterable[
     Returns
     -------
     SpecimenCalibration
-        The same, with the drift.
+        The specimen, with its drift.
 
     Raises
     ------

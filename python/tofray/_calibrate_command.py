@@ -61,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
         help="walls, counted from 0, at which errors are taken of a calibration that has not seen them, with commas between (every fourth of 8 or more)")
     add("--orders", default=None, metavar="NUMBERS",
         help="phase: of the wiggling, so many times the measured phase (the first three that the reference phases let through: 4,8,12 of four)")
-    add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; as often as you like")
+    add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; may be repeated")
     add("--json", action="store_true", help="one JSON object on stdout")
     return out
 

@@ -42,13 +42,13 @@ class LensCalibration:
     residual_px : float, px
         Of the corners found from the corners by the lens, rms of their distances.
     residuals_px : dict of str to float, px
-        The same of each image, by its name.
+        Residual of each image, by its name.
     held_out_px : float, px
-        The same of images from which the lens was not found (each image's pose is); NaN without such images.
+        Residual of images from which the lens was not found (each image's pose is); NaN without such images.
     ray_error_px, worst_ray_error_px : float, px
         By the standard errors and their correlations: by how much pixels are taken to look elsewhere, rms over the image, and at its worst pixel.
     change_px, worst_change_px : float, px
-        By how much pixels look elsewhere than the profile says, likewise.
+        By how much pixels look elsewhere than the profile says, rms over the image, and at its worst pixel.
     notes : list of str
         What could not be known.
     """

@@ -70,7 +70,7 @@ def parser() -> argparse.ArgumentParser:
     add("--mode", default="", metavar="NAME", help="mode of rows that name none (the profile's first)")
     add("--reflectivity", type=_share, default=0.8, metavar="SHARE", help="of rows that name none (80%%)")
     add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE",
-        help="change a key of the profile before; as often as you like")
+        help="change a key of the profile before; may be repeated")
     add("-o", "--output", default="", metavar="FOLDER", help="patch.yaml, profile.diff, rows.csv, table.md and fit.json go there")
     add("--plot", nargs="?", const="fit.png", default="", metavar="PICTURE",
         help="a picture of rows and fit: .png, .svg or .pdf (fit.png; in FOLDER)")

@@ -218,7 +218,7 @@ def rows_of(given: Sequence[dict[str, Any]], sources: list[str], where: str = ""
 
 
 def rows_of_arrays(data: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """The same rows out of arrays by column's name."""
+    """Rows out of arrays by column's name."""
     _check_names("data", 1, [(1, str(one)) for one in data])
     lengths = {name: len(values) for name, values in data.items()}
     if len(set(lengths.values())) != 1 or not next(iter(lengths.values())):

@@ -58,7 +58,7 @@ def parser() -> argparse.ArgumentParser:
     add("--mode", default="", metavar="NAME", help="the camera's mode (the profile's first)")
     add("--held-out", default=None, metavar="NUMBERS",
         help="images, counted from 0, at which the residual is taken of a lens found without them, with commas between (every fourth of 8 or more)")
-    add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; as often as you like")
+    add("--set", type=_setting, action="append", default=[], metavar="KEY=VALUE", help="change a key of the profile before; may be repeated")
     add("--json", action="store_true", help="one JSON object on stdout")
     return out
 

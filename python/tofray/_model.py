@@ -24,7 +24,7 @@ class PixelMask(Record):
     kind : Literal["square", "table"]
         square: evenly in a square of area fill_factor·pitch² in its middle.
     samples : list[float], 1
-        table: of the whole pixel, rows from its top on, any unit. From 0 to 1e12.
+        table: sensitivity over the whole pixel, any unit; row by row from the top. From 0 to 1e12.
     columns : int
         From 1 to 1024.
     rows : int
@@ -60,11 +60,11 @@ class Sensor(Record):
     height : int
         Rows of pixels. From 1 to 16384.
     pixel_pitch_m : float, m
-        From one pixel's middle to the next one's. From 5e-7 to 0.001.
+        Distance between the centres of neighbouring pixels. From 5e-7 to 0.001.
     fill_factor : float, 1
         Share of the pixel's area that collects light. From 0.001 to 1.
     mask : PixelMask
-        Where within a pixel it is collected, for samples within it.
+        Where within a pixel light is collected, for several samples per pixel.
     """
     __slots__ = ("width", "height", "pixel_pitch_m", "fill_factor", "mask")
     width: int
@@ -122,15 +122,15 @@ class Scatter(Record):
     ----------
     kind : Literal["none", "gaussians", "kernel"]
     share : float, 1
-        gaussians, kernel: of the light. From 0 to 1.
+        gaussians, kernel: share of the light that is scattered. From 0 to 1.
     sigma_px : list[float], px
         gaussians: width of each Gaussian. From 0.1 to 10000.
     weights : list[float], 1
-        gaussians: how much of it each Gaussian takes, any unit; in files all alike unless given.
-        gaussians: how much of it each takes, any unit; empty: all alike. From 0 to 1e12.
+        gaussians: weight of each Gaussian, any unit; in files equal unless given. gaussians: weight
+        of each, any unit; empty: equal. From 0 to 1e12.
     kernel : list[float], 1
-        kernel: how much of it goes where, any unit: rows from above on, odd in number as the
-        columns; the middle is the pixel itself. From 0 to 1e12.
+        kernel: weights of the kernel, any unit: row by row from the top; rows and columns odd in
+        number; the middle is the pixel itself. From 0 to 1e12.
     columns : int
         From 1 to 255.
     rows : int
@@ -175,33 +175,36 @@ class Lens(Record):
     fy_px : float, px
         Focal length over pixel pitch, along a column. From 1 to 1e6.
     cx_px : float, px
-        Principal point, its column; the middle of pixel (0, 0) is at (0, 0). From -100000 to
+        Column of the principal point; the centre of pixel (0, 0) is at (0, 0). From -100000 to
         100000.
     cy_px : float, px
-        Principal point, its row; the middle of pixel (0, 0) is at (0, 0). From -100000 to 100000.
+        Row of the principal point; the centre of pixel (0, 0) is at (0, 0). From -100000 to 100000.
     distortion : Literal["brown_conrady", "fisheye"]
         As in OpenCV: brown_conrady: k1 to k6, p1 and p2, rational from k4 on; fisheye: k1 to k4
         over the angle to the axis.
     k1 : float, 1
-        As in OpenCV: radial, r^2; fisheye: angle^2. From -1000 to 1000.
+        As in OpenCV: radial coefficient of r^2; fisheye: of angle^2. From -1000 to 1000.
     k2 : float, 1
-        As in OpenCV: radial, r^4; fisheye: angle^4. From -1000 to 1000.
+        As in OpenCV: radial coefficient of r^4; fisheye: of angle^4. From -1000 to 1000.
     p1 : float, 1
-        brown_conrady: as in OpenCV: tangential distortion, first. From -1000 to 1000.
+        brown_conrady: as in OpenCV: first tangential coefficient. From -1000 to 1000.
     p2 : float, 1
-        brown_conrady: as in OpenCV: tangential distortion, second. From -1000 to 1000.
+        brown_conrady: as in OpenCV: second tangential coefficient. From -1000 to 1000.
     k3 : float, 1
-        As in OpenCV: radial, r^6; fisheye: angle^6. From -1000 to 1000.
+        As in OpenCV: radial coefficient of r^6; fisheye: of angle^6. From -1000 to 1000.
     k4 : float, 1
-        As in OpenCV: radial, r^2 below the line; fisheye: angle^8. From -1000 to 1000.
+        As in OpenCV: radial coefficient of r^2 in the denominator; fisheye: of angle^8. From -1000
+        to 1000.
     k5 : float, 1
-        brown_conrady: as in OpenCV: radial, r^4 below the line. From -1000 to 1000.
+        brown_conrady: as in OpenCV: radial coefficient of r^4 in the denominator. From -1000 to
+        1000.
     k6 : float, 1
-        brown_conrady: as in OpenCV: radial, r^6 below the line. From -1000 to 1000.
+        brown_conrady: as in OpenCV: radial coefficient of r^6 in the denominator. From -1000 to
+        1000.
     f_number : float, 1
         N: focal length over the diameter of the entrance pupil. From 0.3 to 100.
     transmission : float, 1
-        Of lens and filter at the illumination wavelength. From 0 to 1.
+        Transmission of lens and filter at the illumination wavelength. From 0 to 1.
     vignetting : Literal["cos4", "off", "table"]
         Fall-off toward the corners: cos4, off, or a table over the angle to the axis.
     vignetting_table : Curve
@@ -274,15 +277,17 @@ class Lens(Record):
 
 
 class Filter(Record):
-    """Optical filter before the sensor, seen by ambient light only (the camera's own light has
+    """Optical filter before the sensor, for ambient light only (the camera's illumination has
     Lens::transmission).
 
     Attributes
     ----------
     center_m : float, m
-        In files the illumination wavelength of the first light unless given. From 1e-7 to 2e-5.
+        Centre of the pass band; in files the illumination wavelength of the first light unless
+        given. From 1e-7 to 2e-5.
     half_width_m : float, m
-        Passes center - half_width_m to center + half_width_m. From 1e-10 to 1e-5.
+        Half width of the pass band: center - half_width_m to center + half_width_m. From 1e-10 to
+        1e-5.
     peak : float, 1
         Transmission of the filter in its pass band. From 0 to 1.
     table : Curve
@@ -317,13 +322,15 @@ class Area(Record):
     ----------
     kind : Literal["none", "disk", "rectangle"]
     radius_m : float, m
-        disk: of the disk, across the axis. From 1e-6 to 10.
+        disk: radius of the disk, which lies across the axis. From 1e-6 to 10.
     width_m : float, m
-        rectangle: toward the camera's x; of an axis along x: its y. From 1e-6 to 10.
+        rectangle: width along the camera's x; along its y where the axis is along x. From 1e-6 to
+        10.
     height_m : float, m
-        rectangle: across that and the axis. From 1e-6 to 10.
+        rectangle: height, across the width and the axis. From 1e-6 to 10.
     points : int
-        disk, rectangle: that stand for it; each costs as much as a light source. From 1 to 64.
+        disk, rectangle: number of points that stand for the area; each costs as much as a light
+        source. From 1 to 64.
     """
     __slots__ = ("kind", "radius_m", "width_m", "height_m", "points")
     kind: Literal["none", "disk", "rectangle"]
@@ -355,7 +362,7 @@ class Pattern(Record):
     ----------
     kind : Literal["cone", "lambertian", "cosine_lobe", "flat_top", "table"]
     half_angle_rad : float, rad
-        cone: uniform up to this angle to the axis. From 0.001 to 3.14159.
+        cone: half angle of the cone, within which it is uniform. From 0.001 to 3.14159.
     exponent : float, 1
         cosine_lobe: n of cos^n. From 0 to 10000.
     width_rad : float, rad
@@ -363,17 +370,18 @@ class Pattern(Record):
     height_rad : float, rad
         flat_top: full width across y at half the peak. From 0.001 to 6.28319.
     columns : int
-        flat_top: cells of the table it stands for. From 2 to 4096.
+        flat_top: columns of the grid that power_model paper_literal reads. From 2 to 4096.
     rows : int
-        flat_top: cells of the table it stands for. From 2 to 4096.
+        flat_top: rows of the grid that power_model paper_literal reads. From 2 to 4096.
     half_range_x_rad : float, rad
-        flat_top: zero beyond +- this; in files the width unless given. table: the table covers +-
-        this across its columns. The grid covers ±this across its columns (edges of the outer
-        cells); beyond, the light is dark. Of a flat top, 0 takes its width, where the light has
-        fallen to nothing (2⁻²⁵⁶). From 0.001 to 6.28319.
+        flat_top: half range across x, beyond which it is dark; in files the width unless given.
+        table: half range of the table across its columns. The grid covers ±this across its columns
+        (edges of the outer cells); beyond, the light is dark. Of a flat top, 0 takes its width,
+        where the light has fallen to nothing (2⁻²⁵⁶). From 0.001 to 6.28319.
     half_range_y_rad : float, rad
-        flat_top: zero beyond +- this; in files the height unless given. table: the table covers +-
-        this across its rows. The same across its rows; 0: the height. From 0.001 to 6.28319.
+        flat_top: half range across y, beyond which it is dark; in files the height unless given.
+        table: half range of the table across its rows. Half range across its rows; 0: the height.
+        From 0.001 to 6.28319.
     samples : list[float], 1
         table: rows (from -half_range_y_rad on) of samples (from -half_range_x_rad on), any unit.
         From 0 to 1e12.
@@ -424,9 +432,9 @@ class Waveform(Record):
     ----------
     kind : Literal["rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"]
     duty : float, 1
-        rectangular, trapezoid: width at half height over the period. From 0.001 to 0.999.
+        rectangular, trapezoid: pulse width at half height over the period. From 0.001 to 0.999.
     rise_time_s : float, s
-        rectangular, trapezoid: linear edge, 0 to 100 %. From 0 to 0.001.
+        rectangular, trapezoid: rise time of a linear edge, 0 to 100 %. From 0 to 0.001.
     bandwidth_hz : float, Hz
         rectangular, sine, trapezoid, gaussian, emission: single pole of the light source; 0: none.
         From 0 to 1e12.
@@ -434,24 +442,24 @@ class Waveform(Record):
         rectangular, sine, trapezoid, gaussian, emission: Gaussian jitter of the light's edges, 1
         sigma. From 0 to 1e-6.
     harmonics : int
-        rectangular, measured, trapezoid, gaussian, emission: how many odd harmonics are kept: 1, 3,
-        5, 7 …. From 1 to 8.
+        rectangular, measured, trapezoid, gaussian, emission: number of odd harmonics that are kept:
+        1, 3, 5, 7 …. From 1 to 8.
     modulation_depth : float, 1
-        sine: d of the light 1 + d cos. From 0.001 to 1.
+        sine: modulation depth d of the light 1 + d cos. From 0.001 to 1.
     correlation : list[float], 1
         measured: (A-B)/(A+B) at reference phases over one period, light and pixel at no distance.
         From -10 to 10.
     fall_time_s : float, s
-        trapezoid: the edge at the pulse's end. From 0 to 0.001.
+        trapezoid: fall time of the linear edge at the pulse's end. From 0 to 0.001.
     sigma_s : float, s
         gaussian: width of the pulse, 1 sigma. From 0 to 0.001.
     emission : list[float], 1
         emission: the light over one period, any unit, from the middle of the pulse on. From 0 to
         1e12.
     sample_phases_rad : list[float], rad
-        measured, emission: where in the period the samples are, ascending; in files equally spaced
-        from 0 unless given. Measured, emission: at which phases of the period the samples are,
-        ascending within one turn; empty: equally spaced from 0 on. From -100 to 100.
+        measured, emission: phases of the samples, ascending; in files equally spaced from 0 unless
+        given. Measured, emission: at which phases of the period the samples are, ascending within
+        one turn; empty: equally spaced from 0 on. From -100 to 100.
     """
     __slots__ = ("kind", "duty", "rise_time_s", "bandwidth_hz", "jitter_s", "harmonics", "modulation_depth", "correlation",
                  "fall_time_s", "sigma_s", "emission", "sample_phases_rad")
@@ -504,19 +512,19 @@ class Illumination(Record):
     Attributes
     ----------
     position : tuple[float, float, float], m
-        Where the light source stands, in the camera's frame. From -100 to 100.
+        Position of the light source in the camera's frame. From -100 to 100.
     axis : tuple[float, float, float], 1
-        Which way it shines, in the camera's frame. From -1e6 to 1e6.
+        Direction in which the light source shines, in the camera's frame. From -1e6 to 1e6.
     illumination_wavelength_m : float, m
         Wavelength of the light source. From 3e-7 to 2e-6.
     power_w : float, W
-        Optical, of a lit raw frame, mean over the modulation period. From 0 to 10000.
+        Optical power during a lit raw frame, mean over the modulation period. From 0 to 10000.
     ring_leds : int
-        So many sources on a circle about the position, across the axis. From 1 to 64.
+        Number of sources on a circle about the position, across the axis. From 1 to 64.
     ring_radius_m : float, m
-        Radius of the circle that ring_leds stand on. From 0 to 10.
+        Radius of the circle of ring_leds. From 0 to 10.
     area : Area
-        A disk or rectangle across the axis, which shines evenly, in place of a point.
+        A disk or rectangle across the axis that shines evenly, in place of a point.
     pattern : Pattern
         How the light is spread over directions.
     waveform : Waveform
@@ -571,70 +579,75 @@ class Pixel(Record):
         [Hz] → K; one sample: a constant. x: modulation frequency from 1000 to 1e10 Hz, y: value
         from 0 to 1.
     contrast_by_wavelength : Curve
-        On the contrast, at the wavelength of each light; in files 1 unless given; not of a measured
-        waveform, which has it in it. Wavelength [m] → factor on K; none: 1. x: wavelength from 1e-7
-        to 2e-5 m, y: factor from 0 to 10.
+        Factor on the contrast at the wavelength of each light; in files 1 unless given; not applied
+        to a measured waveform, which contains it. Wavelength [m] → factor on K; none: 1. x:
+        wavelength from 1e-7 to 2e-5 m, y: factor from 0 to 10.
     bandwidth_hz : float, Hz
         Single pole of the gate; 0: none. From 0 to 1e12.
     full_well_e : float, e
-        Charge that a tap holds. From 1 to 1e30.
+        Full-well capacity of a tap. From 1 to 1e30.
     read_noise_e : float, e
-        Per tap, reset and read, 1 sigma; reset noise has a key of its own, too. From 0 to 1e6.
+        Noise of reset and readout per tap, 1 sigma; reset noise alone may stand in reset_noise.
+        From 0 to 1e6.
     column_noise_e : float, e
-        Of A-B, shared by a column, anew in each raw frame, 1 sigma. From 0 to 1e6.
+        Noise of A-B that all pixels of a column share, drawn for each raw frame, 1 sigma. From 0 to
+        1e6.
     row_noise_e : float, e
-        Noise that all pixels of a row share. From 0 to 1e6.
+        Noise of A-B that all pixels of a row share, drawn for each raw frame, 1 sigma. From 0 to
+        1e6.
     dark_current_e_per_s : float, e/s
-        Per tap, at the camera's reference temperature. From 0 to 1e12.
+        Dark current per tap at the camera's reference temperature. From 0 to 1e12.
     dark_current_doubling_k : float, K
-        It doubles with every so many kelvin; 0: the same at all temperatures. From 0 to 1000.
+        Temperature rise that doubles the dark current; 0: it is constant. From 0 to 1000.
     tap_gain_mismatch : float, 1
-        How tap A differs from tap B in all pixels: g: A collects 1 + g/2 of its charge, B 1 - g/2.
-        From -1 to 1.
+        Mismatch of taps A and B, the same in all pixels: g: tap A collects 1 + g/2 of its charge,
+        tap B 1 - g/2. From -1 to 1.
     tap_offset_mismatch_e : float, e
-        How tap A differs from tap B in all pixels: A holds half of this more, B half of it less, in
-        each raw frame. From -1e6 to 1e6.
+        Mismatch of taps A and B, the same in all pixels: offset of tap A less that of tap B in each
+        raw frame: half of it more in A, half of it less in B. From -1e6 to 1e6.
     crosstalk_left_right : float, 1
-        Charge that neighbours collect: share of its charge that the left neighbour gets, and the
-        right one as much. From 0 to 0.25.
+        crosstalk: charge that neighbours collect: share of a pixel's charge that each of the
+        neighbours left and right collects. From 0 to 0.25.
     crosstalk_up_down : float, 1
-        Charge that neighbours collect: share of the charge that goes to each of the pixels above
-        and below. From 0 to 0.25.
+        crosstalk: charge that neighbours collect: share of a pixel's charge that each of the
+        neighbours above and below collects. From 0 to 0.25.
     nonlinearity : Curve
-        What is read of a tap's charge, from 0 e on, rising; in files what there is unless given.
-        Charge of a tap [e⁻] → charge that is read of it; none: the same. x: charge from 0 to 1e12
-        e, y: read from 0 to 1e12 e.
+        Charge that is read for each charge of a tap, rising from 0 e; in files the charge itself
+        unless given. Charge of a tap [e⁻] → charge that is read of it; none: the same. x: charge
+        from 0 to 1e12 e, y: read from 0 to 1e12 e.
     prnu : float, 1
-        What differs from pixel to pixel: photo response non-uniformity, 1 sigma. From 0 to 1.
+        Fixed patterns: differences between pixels: photo response non-uniformity, 1 sigma. From 0
+        to 1.
     dsnu_dn : float, DN
-        What differs from pixel to pixel: offset pattern, 1 sigma. From 0 to 10000.
+        Fixed patterns: differences between pixels: offset pattern, 1 sigma. From 0 to 10000.
     delay_s : float, s
-        What differs from pixel to pixel: fixed delay per pixel, 1 sigma. From 0 to 1e-6.
+        Fixed patterns: differences between pixels: fixed delay per pixel, 1 sigma. From 0 to 1e-6.
     phase_offset_rad : float, rad
-        What differs from pixel to pixel: fixed phase per pixel and modulation frequency, 1 sigma.
-        From 0 to 6.28319.
+        Fixed patterns: differences between pixels: fixed phase per pixel and modulation frequency,
+        1 sigma. From 0 to 6.28319.
     pattern_seed : int
-        What differs from pixel to pixel: which specimen of the sensor. From 0 to 9007199254740991.
+        Fixed patterns: differences between pixels: seed of the fixed patterns: which specimen of
+        the sensor. From 0 to 9007199254740991.
     suppression_threshold_e : float, e
-        Background suppression: starts when the smaller tap reaches it; 0: no suppression. From 0 to
-        1e12.
+        Background suppression: charge of the smaller tap at which suppression starts; 0: no
+        suppression. From 0 to 1e12.
     suppression_budget_e : float, e
         Background suppression: largest charge taken off each tap. From 0 to 1e12.
     suppression_noise_factor : float, 1
-        Background suppression: each tap's removed charge x adds a variance of
-        suppression_noise_factor^2 x. From 0 to 100.
+        Background suppression: factor on the noise of removed charge: charge x adds a variance of
+        suppression_noise_factor^2 x to its tap. From 0 to 100.
     reset_noise_e : float, e
-        Charge that the reset leaves in a tap by chance: per tap at the camera's reference
-        temperature, 1 sigma, beside read_noise_e. From 0 to 1e6.
+        Random charge that the reset leaves in a tap: reset noise per tap at the camera's reference
+        temperature, 1 sigma, in addition to read_noise_e. From 0 to 1e6.
     cancels_reset_noise : bool
-        Charge that the reset leaves in a tap by chance: by correlated double sampling: none is
-        left, but taps are read twice.
+        Random charge that the reset leaves in a tap: correlated double sampling: no reset noise,
+        but each tap is read twice.
     blooming_share : float, 1
-        Charge beyond a full well, which spills: of it that each of the four neighbours gets. From 0
-        to 0.25.
+        blooming: charge above full well, which spills into neighbours: share of the charge above
+        full well that each of the four neighbours receives. From 0 to 0.25.
     blooming_limit_e : float, e
-        Charge beyond a full well, which spills: who gets more in a lit raw frame is flagged as
-        saturated. From 0 to 1e12.
+        blooming: charge above full well, which spills into neighbours: a pixel that receives more
+        than this from its neighbours in a lit raw frame is flagged as saturated. From 0 to 1e12.
     """
     __slots__ = ("quantum_efficiency", "contrast", "contrast_by_wavelength", "bandwidth_hz", "full_well_e", "read_noise_e",
                  "column_noise_e", "row_noise_e", "dark_current_e_per_s", "dark_current_doubling_k", "tap_gain_mismatch",
@@ -742,13 +755,14 @@ class Adc(Record):
         Code of A-B = 0; in files the middle unless given. 2^(bits − 1) is the middle. From 0 to
         65535.
     valid_min : int
-        Codes below are flagged as saturated; in files 0 unless given. Codes outside
-        valid_min…valid_max flag the pixel as saturated. From 0 to 65535.
+        Lowest valid code; codes below are flagged as saturated; in files 0 unless given. Codes
+        outside valid_min…valid_max flag the pixel as saturated. From 0 to 65535.
     valid_max : int
-        Codes above are flagged as saturated; in files the largest unless given. From 0 to 65535.
+        Highest valid code; codes above are flagged as saturated; in files the largest unless given.
+        From 0 to 65535.
     gains : list[float], 1
-        What modes may choose from; a mode's step is `step_e_per_dn` over its gain. From 0.01 to
-        100.
+        Gains that modes may choose from; a mode's step is `step_e_per_dn` over its gain. From 0.01
+        to 100.
     """
     __slots__ = ("bits", "step_e_per_dn", "mid_code", "valid_min", "valid_max", "gains")
     bits: int
@@ -785,16 +799,17 @@ class ImageFilter(Record):
     ----------
     kind : Literal["none", "gaussian", "median", "bilateral", "adaptive"]
     sigma_px : float, px
-        gaussian, bilateral: width of the kernel. From 0.1 to 10.
+        gaussian, bilateral: standard deviation of the kernel. From 0.1 to 10.
     radius_px : int
-        median, adaptive: window of (2 radius + 1)^2 pixels, of adaptive at most. From 1 to 4.
+        median, adaptive: radius of the window of (2 radius + 1)^2 pixels; adaptive: of the largest
+        one. From 1 to 4.
     sigmas : float, 1
-        bilateral, adaptive: neighbours count that are off by less than this times the noise. From 0
-        to 1000.
+        bilateral, adaptive: neighbours count if they differ by less than this times the noise. From
+        0 to 1000.
     range_m : float, m
-        bilateral: and this, the root of both squares' sum. From 0 to 1000.
+        bilateral: length added in quadrature to the limit that sigmas sets. From 0 to 1000.
     goal_m : float, m
-        adaptive: neighbours are added until the noise is no more than this. From 0 to 1000.
+        adaptive: target noise: neighbours are added until it is reached. From 0 to 1000.
     """
     __slots__ = ("kind", "sigma_px", "radius_px", "sigmas", "range_m", "goal_m")
     kind: Literal["none", "gaussian", "median", "bilateral", "adaptive"]
@@ -829,23 +844,23 @@ class FrequencyCalibration(Record):
     Attributes
     ----------
     modulation_frequency_hz : float, Hz
-        Of which all this is. From 1000 to 1e10.
+        Modulation frequency that this entry is for. From 1000 to 1e10.
     phase_offset_rad : float, rad
-        Phases are measured too large by this in all pixels. From -100 to 100.
+        Amount by which measured phases are too large, in all pixels. From -100 to 100.
     drift_m_per_kelvin : float, m/K
-        Range for each kelvin of temperature.actual beyond the calibration's. From -1 to 1.
+        Drift of the range per kelvin of temperature.actual above the calibration's reference. From
+        -1 to 1.
     wiggling_cos_rad : list[float], rad
-        What the harmonics do to the phase, as sines and cosines of 1, 2, ... times the measured
-        phase: of each cosine, the first one first. From -1 to 1.
+        Phase error by harmonics, as cosines and sines of 1, 2, ... times the measured phase:
+        amplitude of each cosine, from the first order on. From -1 to 1.
     wiggling_sin_rad : list[float], rad
-        What the harmonics do to the phase, as sines and cosines of 1, 2, ... times the measured
-        phase: of each sine, as many. From -1 to 1.
+        Phase error by harmonics, as cosines and sines of 1, 2, ... times the measured phase:
+        amplitude of each sine, as many as cosines. From -1 to 1.
     pixel_phase_file : str
-        A file of NumPy beside this one or below: phase [rad] of each pixel [height, width],
-        besides; in files 0 unless given. What the following are called: `meta` says this alone of
-        them.
+        A .npy file beside this one or below: additional phase [rad] of each pixel, [height, width];
+        in files 0 unless given. Name of the file of pixel_phase_rad: `meta` has the name alone.
     pixel_phase_rad : list[float], rad
-        [height][width] of the image that is read out, besides; none: 0.
+        Additional phase of each pixel, [height][width] of the image that is read out; none: 0.
     """
     __slots__ = ("modulation_frequency_hz", "phase_offset_rad", "drift_m_per_kelvin", "wiggling_cos_rad", "wiggling_sin_rad",
                  "pixel_phase_file", "pixel_phase_rad")
@@ -884,12 +899,12 @@ class DecoderCalibration(Record):
     Attributes
     ----------
     kind : Literal["exact", "none", "specimen"]
-        exact: all that the profile says, each pixel's own phase among it; none: a sine, and pixels
-        all alike; specimen: what follows.
+        exact: all that the profile says, each pixel's own phase included; none: a sine, and equal
+        pixels; specimen: the members below.
     reference_celsius : float, degC
-        specimen: temperature at which it was measured. From -100 to 200.
+        specimen: temperature at which the specimen was measured. From -100 to 200.
     frequencies : list[FrequencyCalibration]
-        specimen: one for each of the mode.
+        specimen: one entry for each modulation frequency of the mode.
     """
     __slots__ = ("kind", "reference_celsius", "frequencies")
     kind: Literal["exact", "none", "specimen"]
@@ -914,59 +929,59 @@ class Decoding(Record):
     Attributes
     ----------
     wiggling_correction : bool
-        Take out what the harmonics do to the phase.
+        Correct the phase error by harmonics (wiggling).
     noise_threshold_m : float, m
-        More noise than this: flagged as low signal; also the scale of confidence. From 1e-6 to
-        1000.
+        Noise above which a pixel is flagged as low signal; also the scale of confidence. From 1e-6
+        to 1000.
     amplitude_threshold_e : float, e
-        Less amplitude than this: flagged as low signal. From 0 to 1e12.
+        Amplitude below which a pixel is flagged as low signal. From 0 to 1e12.
     lower_saturation_dn : float | None, DN
-        Codes below are flagged as saturated; adc.valid_min unless given. From 0 to 65535.
+        Lowest code that is not flagged as saturated; adc.valid_min unless given. From 0 to 65535.
     upper_saturation_dn : float | None, DN
-        Codes above are flagged as saturated; adc.valid_max unless given. From 0 to 65535.
+        Highest code that is not flagged as saturated; adc.valid_max unless given. From 0 to 65535.
     flying_near_z_m : float, m
-        Limits of the flying pixel flag: the limit on |dz| grows linearly from here. From 0 to
+        Limits of the flying pixel flag: z from which on the limit on |dz| grows linearly. From 0 to
         10000.
     flying_near_limit_m : float, m
-        Limits of the flying pixel flag: limit at flying_near_z_m and before. From 0 to 1000.
+        Limits of the flying pixel flag: limit on |dz| up to flying_near_z_m. From 0 to 1000.
     flying_far_z_m : float, m
-        Limits of the flying pixel flag: to here, where flying_far_limit_m holds. From 0 to 10000.
+        Limits of the flying pixel flag: z up to which the limit on |dz| grows. From 0 to 10000.
     flying_far_limit_m : float, m
-        Limits of the flying pixel flag: limit at flying_far_z_m and beyond. From 0 to 1000.
+        Limits of the flying pixel flag: limit on |dz| from flying_far_z_m on. From 0 to 1000.
     flying_sigmas : float, 1
-        Limits of the flying pixel flag: |dz| has to be more than this times its noise, too; 0: the
-        limit alone. From 0 to 1000.
+        Limits of the flying pixel flag: |dz| must also exceed this times its noise; 0: the limit
+        alone. From 0 to 1000.
     flying_check : bool
-        Limits of the flying pixel flag: whether flying pixels are looked for.
+        Limits of the flying pixel flag: whether flying pixels are detected.
     asymmetry_limit_e : float, e
-        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
-        moves: largest |D_k + D_k+2| before a pixel is flagged. From 0 to 1e12.
+        Check of raw frames half a period apart, whose sum is 0 unless something moves: largest |D_k
+        + D_k+2| before a pixel is flagged. From 0 to 1e12.
     asymmetry_sigmas : float, 1
-        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
-        moves: the sum has to be more than this times its noise, too. From 0 to 1000.
+        Check of raw frames half a period apart, whose sum is 0 unless something moves: the sum must
+        also exceed this times its noise. From 0 to 1000.
     asymmetry_reject : bool
-        Raw frames whose reference phases are half a turn apart add up to nothing, unless something
-        moves: whether the depth is invalid then.
+        Check of raw frames half a period apart, whose sum is 0 unless something moves: whether the
+        depth of a flagged pixel is invalid.
     multipath_limit_m : float, m
-        Two modulation frequencies say the same, unless light took several paths: largest difference
-        of the ranges before a pixel is flagged. From 0 to 10000.
+        Check of two modulation frequencies, whose ranges agree unless light took several paths:
+        largest difference of the ranges before a pixel is flagged. From 0 to 10000.
     multipath_sigmas : float, 1
-        Two modulation frequencies say the same, unless light took several paths: the difference has
-        to be more than this times its noise, too. From 0 to 1000.
+        Check of two modulation frequencies, whose ranges agree unless light took several paths: the
+        difference must also exceed this times its noise. From 0 to 1000.
     multipath_reject : bool
-        Two modulation frequencies say the same, unless light took several paths: whether the depth
-        is invalid then.
+        Check of two modulation frequencies, whose ranges agree unless light took several paths:
+        whether the depth of a flagged pixel is invalid.
     temporal_frames : int
-        Mean over frames that follow each other, pixel by pixel: the last one and those before it;
-        1: each frame stands by itself. From 1 to 32.
+        Mean over frames that follow each other, pixel by pixel: number of frames in the mean, the
+        current one and those before it; 1: no mean. From 1 to 32.
     temporal_sigmas : float, 1
-        Mean over frames that follow each other, pixel by pixel: frames count that are off by less
+        Mean over frames that follow each other, pixel by pixel: frames count if they differ by less
         than this times the noise. From 0 to 1000.
     filter : ImageFilter
         Filter over the range image.
     calibration : DecoderCalibration
-        What decoding knows of the specimen: exact (all), none (a sine, pixels alike), or a file of
-        it.
+        What decoding knows of the specimen: exact (everything), none (a sine, equal pixels), or a
+        calibration file.
     """
     __slots__ = ("wiggling_correction", "noise_threshold_m", "amplitude_threshold_e", "lower_saturation_dn", "upper_saturation_dn",
                  "flying_near_z_m", "flying_near_limit_m", "flying_far_z_m", "flying_far_limit_m", "flying_sigmas", "flying_check",
@@ -1051,15 +1066,15 @@ class Temperature(Record):
     celsius : float, degC
         Temperature of the camera. From -100 to 200.
     reference_celsius : float, degC
-        At which the range has no drift. From -100 to 200.
+        Temperature at which the range has no drift. From -100 to 200.
     drift_m_per_kelvin : float, m/K
-        Range per kelvin off the reference. From -1 to 1.
+        Drift of the range per kelvin above the reference. From -1 to 1.
     warm_up_m : float, m
-        Range drifts by this while the camera warms up, first order. From -1 to 1.
+        Drift of the range while the camera warms up, first order. From -1 to 1.
     warm_up_time_s : float, s
         Time constant of the warm-up. From 0.001 to 1e6.
     since_start_s : float, s
-        How long the camera has run at frame 0. From 0 to 1e12.
+        Time since the camera was switched on, at frame 0. From 0 to 1e12.
     """
     __slots__ = ("celsius", "reference_celsius", "drift_m_per_kelvin", "warm_up_m", "warm_up_time_s", "since_start_s")
     celsius: float
@@ -1094,14 +1109,15 @@ class Interference(Record):
     Attributes
     ----------
     share : float, 1
-        Of its light over the own, in each pixel; 0: no other camera. From 0 to 100.
+        Light of the other camera over that of this one, in each pixel; 0: no other camera. From 0
+        to 100.
     frequency_difference_hz : float, Hz
-        Its modulation frequencies less the own. From -1e9 to 1e9.
+        Modulation frequencies of the other camera less those of this one. From -1e9 to 1e9.
     active : float, 1
-        How likely a raw frame meets its light. From 0 to 1.
+        Probability that a raw frame overlaps the other camera's exposure. From 0 to 1.
     phase_rad : float | None, rad
-        Of its light behind the own at the start of frame 0; drawn anew for each raw frame unless
-        given. From -100 to 100.
+        Phase by which the other camera's light lags at the start of frame 0; drawn for each raw
+        frame unless given. From -100 to 100.
     """
     __slots__ = ("share", "frequency_difference_hz", "active", "phase_rad")
     share: float
@@ -1130,12 +1146,12 @@ class Calibration(Record):
     Attributes
     ----------
     range_offset_m : float, m
-        Raw data show surfaces too far by this; decoding takes it off. From -10000 to 10000.
+        Amount by which raw data show surfaces too far; decoding subtracts it. From -10000 to 10000.
     phase_offset : Curve
-        Phases of raw data are too large by this, besides; decoding takes it off; in files 0 unless
-        given. Modulation frequency [Hz] → how much too large its phase is in raw data [rad],
-        besides; one sample: a constant; none: 0. x: modulation frequency from 1000 to 1e10 Hz, y:
-        value from -100 to 100 rad.
+        Amount by which phases of raw data are too large in addition; decoding subtracts it; in
+        files 0 unless given. Modulation frequency [Hz] → how much too large its phase is in raw
+        data [rad], besides; one sample: a constant; none: 0. x: modulation frequency from 1000 to
+        1e10 Hz, y: value from -100 to 100 rad.
     """
     __slots__ = ("range_offset_m", "phase_offset")
     range_offset_m: float
@@ -1158,7 +1174,7 @@ class SpreadSpectrum(Record):
     Attributes
     ----------
     width : float, 1
-        Of the band over the modulation frequency; 0: none. From 0 to 0.5.
+        Width of the band over the modulation frequency; 0: none. From 0 to 0.5.
     kind : Literal["center", "down"]
         center: the modulation frequency is the band's middle; down: its upper end.
     """
@@ -1190,11 +1206,11 @@ class Readout(Record):
         The rectangle of the sensor that is read, in pixels of the sensor: first row that is read.
         From 0 to 16384.
     width : int
-        The rectangle of the sensor that is read, in pixels of the sensor: columns; 0: as far as the
-        sensor goes. From 0 to 16384.
+        The rectangle of the sensor that is read, in pixels of the sensor: number of columns; 0: up
+        to the sensor's edge. From 0 to 16384.
     height : int
-        The rectangle of the sensor that is read, in pixels of the sensor: rows; 0: as far as the
-        sensor goes. From 0 to 16384.
+        The rectangle of the sensor that is read, in pixels of the sensor: number of rows; 0: up to
+        the sensor's edge. From 0 to 16384.
     """
     __slots__ = ("binning", "left", "top", "width", "height")
     binning: int
@@ -1225,16 +1241,18 @@ class AutoExposure(Record):
     Attributes
     ----------
     speed : float, 1
-        Of the way to the aim in each frame; 0: integration times stay. From 0 to 1.
-    aim : float, 1
-        How much of the valid codes, and of their wells, the bright pixels shall use. From 0.01 to
+        Share of the way to the aim that each frame takes; 0: integration times are fixed. From 0 to
         1.
+    aim : float, 1
+        Share of the valid codes, and of the full well, that bright pixels are to reach. From 0.01
+        to 1.
     bright : float, 1
-        So many of the pixels are no brighter than those. From 0 to 1.
+        Quantile of all pixels that counts as bright. From 0 to 1.
     shortest_s : float, s
-        Lit integration times get no shorter; 0: timing.min_integration_time. From 0 to 1000.
+        Lower limit of the longest lit integration time; 0: timing.min_integration_time. From 0 to
+        1000.
     longest_s : float, s
-        And no longer; 0: as the mode has them. From 0 to 1000.
+        Upper limit of the longest lit integration time; 0: that of the mode. From 0 to 1000.
     """
     __slots__ = ("speed", "aim", "bright", "shortest_s", "longest_s")
     speed: float
@@ -1269,12 +1287,12 @@ class RawFrame(Record):
     modulation_frequency_hz : float, Hz
         lit: modulation frequency of a lit raw frame. From 1000 to 1e10.
     reference_phase_rad : float, rad
-        lit: of lit raw frames; a list makes one raw frame of each. From -100 to 100.
+        lit: reference phase of a lit raw frame; a list makes one raw frame of each value. From -100
+        to 100.
     integration_time_s : float, s
-        How long the raw frame collects light. From 1e-9 to 1000.
+        Time for which the raw frame collects light. From 1e-9 to 1000.
     reference_delay_s : float, s
-        lit: in place of reference_phase_rad: the light is later by this, as a path may be. From
-        -0.001 to 0.001.
+        lit: delay of the light, in place of reference_phase_rad. From -0.001 to 0.001.
     """
     __slots__ = ("lit", "modulation_frequency_hz", "reference_phase_rad", "integration_time_s", "reference_delay_s")
     lit: bool
@@ -1307,11 +1325,11 @@ class Mode(Record):
     ----------
     name : str
     frame_rate_hz : float, Hz
-        Frame i starts at i / frame_rate_hz. From 0.0001 to 100000.
+        Frames per second: frame i starts at i / frame_rate_hz. From 0.0001 to 100000.
     sequence : list[RawFrame]
         The raw frames, in order.
     gain : float, 1
-        Before the ADC, one of adc.gains. From 0.01 to 100.
+        Gain before the ADC, one of adc.gains. From 0.01 to 100.
     """
     __slots__ = ("name", "frame_rate_hz", "sequence", "gain")
     name: str
@@ -1346,15 +1364,15 @@ class Camera(Record):
     sensor : Sensor
         The grid of pixels.
     lens : Lens
-        From directions to pixels.
+        The lens: from directions to pixels.
     filter : Filter
-        Before the sensor, for ambient light.
+        The optical filter before the sensor, for ambient light.
     illumination : list[Illumination]
-        The camera's own lights, which add up.
+        The camera's light sources, whose light adds up.
     pixel : Pixel
         The two-tap pixel.
     adc : Adc
-        From electrons to codes.
+        The converter from electrons to codes.
     decoding : Decoding
         From raw frames to depth.
     temperature : Temperature
@@ -1362,7 +1380,7 @@ class Camera(Record):
     interference : Interference
         Light of another camera of the same kind, at the same place.
     calibration : Calibration
-        What raw data are off by, the same in all pixels.
+        Offsets of raw data, the same in all pixels.
     spread_spectrum : SpreadSpectrum
         Modulation frequencies swept over a band within each exposure.
     readout : Readout
@@ -1372,9 +1390,9 @@ class Camera(Record):
     refractive_index : float, 1
         Refractive index of the medium that light travels in. From 1 to 3.
     readout_time_s : float, s
-        Of the readout: from the end of one exposure to the start of the next. From 0 to 10.
+        Timing of the readout: from the end of one exposure to the start of the next. From 0 to 10.
     min_integration_time_s : float, s
-        Of the readout: shortest exposure the camera can do. From 0 to 10.
+        Timing of the readout: shortest exposure the camera can do. From 0 to 10.
     power_model : Literal["tofray", "paper_literal"]
         paper_literal: the printed formula of the paper, for comparison only.
     mode : Mode
@@ -1462,13 +1480,13 @@ class Pose(PoseMethods):
     Attributes
     ----------
     position : tuple[float, float, float], m
-        Of the entrance pupil. From -100000 to 100000.
+        Position of the entrance pupil. From -100000 to 100000.
     look_at : tuple[float, float, float], m
         A point on the optical axis; [1, 0, 0] where `world_up` is z. From -100000 to 100000.
     up : tuple[float, float, float], 1
-        The world's direction that is up in the image; that of `world_up`. From -1e6 to 1e6.
+        World direction that is up in the image; that of `world_up` unless given. From -1e6 to 1e6.
     quaternion : tuple[float, float, float, float] | None, 1
-        x, y, z, w, from the camera's frame to the world's, of length 1. From -1e6 to 1e6.
+        Unit quaternion x, y, z, w from the camera's frame to the world's. From -1e6 to 1e6.
     """
     __slots__ = ("position", "look_at", "up", "quaternion")
     position: tuple[float, float, float]
@@ -1498,9 +1516,9 @@ class CameraKeyframe(Record):
     Attributes
     ----------
     time_s : float, s
-        When; frame i starts at i / frame rate. From -1e6 to 1e6.
+        Time of the keyframe; frame i starts at i / frame rate. From -1e6 to 1e6.
     pose : Pose
-        Where the camera stands then.
+        Pose of the camera at that time.
     """
     __slots__ = ("time_s", "pose")
     time_s: float
@@ -1554,9 +1572,9 @@ class CameraChoice(Record):
     mode : str
         One of the profile's modes; in files its first unless given. empty: the profile's first.
     pose : Pose
-        Where the camera stands; the world is the camera's frame unless given.
+        Pose of the camera; the world's frame is the camera's unless given.
     keyframes : list[CameraKeyframe]
-        Where it stands when, in place of `pose`; it moves evenly between two.
+        Poses of the camera at times, in place of `pose`; motion between two is even.
     overrides : list[Override]
     profile_where : str
         file:line:col for messages; empty if built in code.
@@ -1593,24 +1611,26 @@ class CameraChoice(Record):
 
 
 class Ambient(Record):
-    """Light that is not the camera's own. One of level, illuminance and band irradiance says how much.
+    """Ambient light: all but the camera's illumination. One of level, illuminance and band irradiance
+    says how much.
 
     Attributes
     ----------
     spectrum : Literal["none", "sun_am15", "equal_energy", "table"]
-        The light's spectrum: a built-in name, or a table; in files sun_am15 unless given.
+        Spectrum of the light: a built-in name, or a table; in files sun_am15 unless given.
     quantity : Literal["level", "illuminance_lx", "band_irradiance_w_per_m2"]
     amount : float, 1 or lx or W/m2
-        level: share of the spectrum as it is tabulated (sun_am15: of full sun). From 0 to 100.
-        illuminance_lx: on the surfaces, as a light meter reads it. From 0 to 1e7.
-        band_irradiance_w_per_m2: on the surfaces, within the camera's filter. From 0 to 100000.
+        level: share of the tabulated spectrum (sun_am15: of full sun). From 0 to 100.
+        illuminance_lx: illuminance of the surfaces, as a light meter reads it. From 0 to 1e7.
+        band_irradiance_w_per_m2: irradiance of the surfaces within the camera's filter. From 0 to
+        100000.
     table_wavelength_m : list[float], m
-        table: on the surfaces. From 1e-7 to 2e-5.
+        table: spectral irradiance on the surfaces. From 1e-7 to 2e-5.
     table_irradiance_w_per_m3 : list[float], W/m3
-        table: on the surfaces. From 0 to 1e13.
+        table: spectral irradiance on the surfaces. From 0 to 1e13.
     direction : tuple[float, float, float] | None, 1
-        In which the light travels (a sun with shadows); from everywhere unless given. From -1e6 to
-        1e6.
+        Direction in which the light travels (a sun with shadows); uniform from everywhere unless
+        given. From -1e6 to 1e6.
     """
     __slots__ = ("spectrum", "quantity", "amount", "table_wavelength_m", "table_irradiance_w_per_m3", "direction")
     spectrum: Literal["none", "sun_am15", "equal_energy", "table"]
@@ -1645,11 +1665,11 @@ class TransientBins(Record):
     Attributes
     ----------
     bins : int
-        How many; 0: there are no histograms. From 0 to 1e6.
+        Number of bins; 0: no histograms. From 0 to 1e6.
     first_m : float, m
-        Where the first bin begins: whole length from light to camera. From 0 to 1e6.
+        Path length at which the first bin begins, all the way from light to camera. From 0 to 1e6.
     width_m : float, m
-        How long a path a bin holds. From 1e-6 to 1e6.
+        Width of a bin in path length. From 1e-6 to 1e6.
     """
     __slots__ = ("bins", "first_m", "width_m")
     bins: int
@@ -1669,29 +1689,30 @@ class TransientBins(Record):
 
 
 class Transport(Record):
-    """How light goes on from surface to surface before it comes back: light that meets 1, 2 … 1 +
-    bounces of them. Which ways it takes is chosen by chance, but the same for all frames: it is no
-    noise of the camera's. Arrays in place of the scene bounce nothing.
+    """Multipath: light that meets 1, 2 … 1 + bounces surfaces before it reaches the camera. Light
+    paths are Monte Carlo samples, the same for all frames: their error is no noise of the camera.
+    Arrays in place of the scene bounce nothing.
 
     Attributes
     ----------
     bounces : int
-        Surfaces that light meets beyond the first one, at most. From 0 to 64.
+        Maximum number of bounces: surfaces that light meets beyond the first one. From 0 to 64.
     samples : int
-        Ways of light that are followed for each pixel, where bounces is not 0; of max_samples the
-        first. From 1 to 65536.
+        Light paths per pixel (Monte Carlo samples), where bounces is not 0; the first ones of
+        max_samples. From 1 to 65536.
     seed : int
-        Another one: other ways, the same light. From 0 to 9007199254740991.
+        Seed of the light paths: another one draws other paths of the same light. From 0 to
+        9007199254740991.
     max_samples : int
-        Twice as many again and again, pixel by pixel, up to these, until path_noise_m is reached;
-        0: samples. From 0 to 65536.
+        Most light paths per pixel: their number is doubled, pixel by pixel, until path_noise_m is
+        reached; 0: samples. From 0 to 65536.
     path_noise_m : float, m
-        Standard error of the half path at which a pixel has ways enough; 0: a fifth of its depth
+        Standard error of the half path at which a pixel has enough paths; 0: a fifth of its depth
         noise. From 0 to 100.
     smooth : bool
-        Light that bounces is smoothed over neighbours that see the same surface.
+        Whether light that bounces is smoothed over neighbours that see the same surface.
     transient : TransientBins
-        Light by the length of its path, as a histogram for each pixel; none unless given.
+        Histograms of light by path length for each pixel; none unless given.
     """
     __slots__ = ("bounces", "samples", "seed", "max_samples", "path_noise_m", "smooth", "transient")
     bounces: int
@@ -1731,20 +1752,20 @@ class Material(Record):
         Empty for a material written inside an object.
     brdf : Literal["lambert", "phong", "oren_nayar", "ggx", "retro"]
     diffuse : float, 1
-        lambert, oren_nayar: share of the light that comes back, all of it diffuse. phong: k_d, the
-        Lambertian share. ggx: k_d of the matt ground below the small mirrors; 0: a metal. retro:
-        k_d, the Lambertian share. From 0 to 1.
+        lambert, oren_nayar: reflectivity: share of the light that is reflected, all of it
+        diffusely. phong: k_d, the Lambertian share. ggx: k_d, the diffuse share below the
+        microfacets; 0: a metal. retro: k_d, the Lambertian share. From 0 to 1.
     specular : float, 1
         phong: k_s, the share of the lobe about the mirror direction; diffuse + specular may not
-        exceed 1. ggx: F_0, what each small mirror reflects at normal incidence: 0.04 of plastic,
-        0.9 of aluminium. From 0 to 1.
+        exceed 1. ggx: F_0, reflectance of a microfacet at normal incidence: 0.04 for plastic, 0.9
+        for aluminium. From 0 to 1.
     exponent : float, 1
-        phong: n of the lobe's cos^n: the larger, the shinier. From 1 to 10000.
+        phong: exponent n of the lobe's cos^n: the larger, the shinier. From 1 to 10000.
     roughness_rad : float, rad
         oren_nayar: spread (1 sigma) of the slopes of the surface's facets; 0: Lambert. From 0 to
         1.5708.
     alpha : float, 1
-        ggx: spread of the small mirrors' slopes: glTF's roughness, squared. From 0.001 to 1.
+        ggx: spread of the microfacets' slopes: glTF's roughness squared. From 0.001 to 1.
     retro : float, 1
         retro: k_r, the share that goes back toward the light; diffuse + retro may not exceed 1.
         From 0 to 1.
@@ -1759,8 +1780,8 @@ class Material(Record):
         it does not.
     finish : VectorMap | None
         GGX, of a mesh: k_d, F_0 and α from place to place, in place of `diffuse`, `specular` and
-        `alpha`, which then are a mean for those who look; `map` scales k_d, too. None: they are the
-        same everywhere.
+        `alpha`, which then are a mean for callers; `map` scales k_d, too. None: they are the same
+        everywhere.
     opacity : ReflectivityMap | None
         Where a mesh has a surface at all: where this is ½ or more, between texels bilinear; light
         and camera look through the rest. Texels of the other pictures that lie where it is less
@@ -1822,7 +1843,7 @@ class Plane(Record):
     point : tuple[float, float, float], m
         A point of the plane. From -100000 to 100000.
     normal : tuple[float, float, float], 1
-        Any length but zero; both sides reflect. From -1e6 to 1e6.
+        Normal, of any length but zero; both sides reflect. From -1e6 to 1e6.
     """
     __slots__ = ("point", "normal")
     point: tuple[float, float, float]
@@ -1844,9 +1865,9 @@ class Sphere(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
-        Its centre. From -100000 to 100000.
+        Centre. From -100000 to 100000.
     radius : float, m
-        Its radius. From 1e-6 to 100000.
+        Radius. From 1e-6 to 100000.
     """
     __slots__ = ("center", "radius")
     center: tuple[float, float, float]
@@ -1868,9 +1889,9 @@ class Box(Record):
     Attributes
     ----------
     min : tuple[float, float, float], m
-        The corner of the smallest x, y and z, before the rotation. From -100000 to 100000.
+        Corner with the smallest x, y and z, before the rotation. From -100000 to 100000.
     max : tuple[float, float, float], m
-        The opposite corner. From -100000 to 100000.
+        Opposite corner, before the rotation. From -100000 to 100000.
     """
     __slots__ = ("min", "max")
     min: tuple[float, float, float]
@@ -1892,7 +1913,7 @@ class Triangle(Record):
     Attributes
     ----------
     vertices : tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]], m
-        The three corners. From -100000 to 100000.
+        Three corners. From -100000 to 100000.
     """
     __slots__ = ("vertices",)
     vertices: tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
@@ -1912,13 +1933,13 @@ class Cylinder(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
-        Halfway between its caps. From -100000 to 100000.
+        Centre, halfway between the caps. From -100000 to 100000.
     axis : tuple[float, float, float], 1
-        From cap to cap; any length but zero. From -1e6 to 1e6.
+        Axis from cap to cap, of any length but zero. From -1e6 to 1e6.
     radius : float, m
-        Its radius. From 1e-6 to 100000.
+        Radius. From 1e-6 to 100000.
     height : float, m
-        From cap to cap. From 1e-6 to 100000.
+        Height, from cap to cap. From 1e-6 to 100000.
     """
     __slots__ = ("center", "axis", "radius", "height")
     center: tuple[float, float, float]
@@ -1946,9 +1967,9 @@ class Rectangle(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
-        Its centre. From -100000 to 100000.
+        Centre. From -100000 to 100000.
     size : tuple[float, float], m
-        Its width and height, along x and y before the rotation; both sides reflect. From 1e-6 to
+        Width and height, along x and y before the rotation; both sides reflect. From 1e-6 to
         100000.
     """
     __slots__ = ("center", "size")
@@ -1971,11 +1992,11 @@ class Disk(Record):
     Attributes
     ----------
     center : tuple[float, float, float], m
-        Its centre. From -100000 to 100000.
+        Centre. From -100000 to 100000.
     normal : tuple[float, float, float], 1
-        Any length but zero; both sides reflect. From -1e6 to 1e6.
+        Normal, of any length but zero; both sides reflect. From -1e6 to 1e6.
     radius : float, m
-        Its radius. From 1e-6 to 100000.
+        Radius. From 1e-6 to 100000.
     """
     __slots__ = ("center", "normal", "radius")
     center: tuple[float, float, float]
@@ -2000,11 +2021,11 @@ class Capsule(Record):
     Attributes
     ----------
     start : tuple[float, float, float], m
-        The middle of one of its round ends. From -100000 to 100000.
+        Centre of one of the round ends. From -100000 to 100000.
     end : tuple[float, float, float], m
-        That of the other one, which is another point. From -100000 to 100000.
+        Centre of the other round end, another point than start. From -100000 to 100000.
     radius : float, m
-        Its radius. From 1e-6 to 100000.
+        Radius. From 1e-6 to 100000.
     """
     __slots__ = ("start", "end", "radius")
     start: tuple[float, float, float]
@@ -2030,13 +2051,13 @@ class Cone(Record):
     Attributes
     ----------
     base : tuple[float, float, float], m
-        The middle of its base. From -100000 to 100000.
+        Centre of the base. From -100000 to 100000.
     axis : tuple[float, float, float], 1
-        From the base to the tip; any length but zero. From -1e6 to 1e6.
+        Axis from the base to the tip, of any length but zero. From -1e6 to 1e6.
     radius : float, m
-        Of the base. From 1e-6 to 100000.
+        Radius of the base. From 1e-6 to 100000.
     height : float, m
-        From base to tip. From 1e-6 to 100000.
+        Height, from base to tip. From 1e-6 to 100000.
     """
     __slots__ = ("base", "axis", "radius", "height")
     base: tuple[float, float, float]
@@ -2068,21 +2089,20 @@ class Mesh(Record):
     file : str
         OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor.
     scale : float, 1
-        Of the file's numbers, to metres: 0.001 where they are mm. From 1e-9 to 1e9.
+        Scale from the file's numbers to metres: 0.001 for a file in mm. From 1e-9 to 1e9.
     up : Literal["automatic", "y", "z", "minus_y", "none"]
         The file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY
         or STL file; none: the file's axes are the world's.
     animation : str
-        Which of a glTF file's animations `time_s` and `play` are of: its name, its number from 0
-        on, or all at once; the first unless given.
+        Animation of a glTF file that `time_s` and `play` refer to: its name, its number from 0 on,
+        or all at once; the first unless given.
     time_s : float | None, s
-        Of a glTF file's animation; as the file stands still unless given. From 0 to 1e6.
+        Time of a glTF file's animation; the file's rest pose unless given. From 0 to 1e6.
     play : Literal["still", "once", "loop"]
-        Whether a glTF file's animation goes on, from `time_s` (or its start) on: once, or again and
-        again.
+        Whether a glTF file's animation plays, from `time_s` (or its start) on: once or repeatedly.
     sha256 : str
-        Of the file's bytes and those of the files that it names, as hexadecimal digits; empty if
-        built in code.
+        SHA-256 of the file's bytes and those of the files that it names, as hexadecimal digits;
+        empty if built in code.
     left_out : int
         Triangles of the file with a corner that is no finite number, or beyond 1e5 m.
     guessed : int
@@ -2090,9 +2110,9 @@ class Mesh(Record):
     notices : list[str]
         sentences: what else of the file is left out, or mended.
     triangles : TriangleMesh | None
-        What is seen: already turned and scaled; objects may share it.
+        The triangles, turned and scaled already; objects may share them.
     motion : MeshMotion | None
-        How it changes its shape; none: it does not.
+        Motion of the vertices; none: the mesh keeps its shape.
     """
     __slots__ = ("file", "scale", "up", "animation", "time_s", "play", "sha256", "left_out", "guessed", "notices", "triangles",
                  "motion")
@@ -2145,11 +2165,11 @@ class Rotation(Record):
     Attributes
     ----------
     axis : tuple[float, float, float], 1
-        The axis, by the right-hand rule; any length but zero. From -1e6 to 1e6.
+        Axis of the rotation, by the right-hand rule, of any length but zero. From -1e6 to 1e6.
     angle_rad : float, rad
-        By how much it turns about axis. From -100 to 100.
+        Angle of the rotation about axis. From -100 to 100.
     quaternion : tuple[float, float, float, float] | None, 1
-        x, y, z, w, of length 1. From -1e6 to 1e6.
+        Unit quaternion x, y, z, w. From -1e6 to 1e6.
     """
     __slots__ = ("axis", "angle_rad", "quaternion")
     axis: tuple[float, float, float]
@@ -2176,11 +2196,11 @@ class Keyframe(Record):
     Attributes
     ----------
     time_s : float, s
-        When; frame i starts at i / frame rate. From -1e6 to 1e6.
+        Time of the keyframe; frame i starts at i / frame rate. From -1e6 to 1e6.
     position : tuple[float, float, float], m
-        By how much it is shifted. From -100000 to 100000.
+        Shift of the object. From -100000 to 100000.
     rotation : Rotation
-        A turn about the object's own centre.
+        Rotation about the object's own centre.
     """
     __slots__ = ("time_s", "position", "rotation")
     time_s: float
@@ -2209,26 +2229,25 @@ class Object(Record):
     Attributes
     ----------
     name : str
-        How listings call the object.
+        Name of the object in listings.
     shape : Plane | Sphere | Box | Triangle | Cylinder | Rectangle | Disk | Capsule | Cone | Mesh
     material : int
         Index in Scene::materials. From 0 to 40000.
     position : tuple[float, float, float], m
-        By how much it is shifted. From -100000 to 100000.
+        Shift of the object. From -100000 to 100000.
     rotation : Rotation
-        A turn about the object's own centre (of a plane: about its point).
+        Rotation about the object's own centre (of a plane: about its point).
     velocity_m_per_s : tuple[float, float, float], m/s
-        How fast it moves. From -10000 to 10000.
+        Velocity of the object. From -10000 to 10000.
     angular_velocity_rad_per_s : tuple[float, float, float], rad/s
-        The axis of a steady turn about the object's own centre, times how fast it turns. From
-        -10000 to 10000.
+        Angular velocity about the object's own centre: axis times rate. From -10000 to 10000.
     keyframes : list[Keyframe]
-        Where it is when, in place of `position`, `rotation` and both velocities; it moves evenly
-        between two.
+        Poses at times, in place of `position`, `rotation` and both velocities; motion between two
+        is even.
     class_name : str
-        What kind of thing it is, for gt_class_id; see the scene's `classes`.
+        Class of the object, for gt_class_id; see the scene's `classes`.
     key : str
-        How its file addresses it, e.g. "objects.2"; empty if built in code.
+        Address in its file, e.g. "objects.2"; empty if built in code.
     where : str
         file:line:col for messages; empty if built in code.
     """
@@ -2280,9 +2299,9 @@ class SceneFile(Record):
     Attributes
     ----------
     file : str
-        As the scene names it.
+        Name in the scene.
     sha256 : str
-        Of its bytes, as hexadecimal digits.
+        SHA-256 of its bytes, as hexadecimal digits.
     """
     __slots__ = ("file", "sha256")
     file: str
@@ -2310,16 +2329,16 @@ class Scene(Record):
     camera : CameraChoice
         Which camera, where it stands, and what to change in its profile.
     ambient : Ambient
-        Light that is not the camera's own; none unless given.
+        Ambient light; none unless given.
     transport : Transport
-        Light that goes on from surface to surface; straight back unless given.
+        multipath: light that bounces from surface to surface; none unless given.
     materials : list[Material]
     objects : list[Object]
     world_up : Literal["minus_y", "y", "z"]
-        The world's axis that is up: where a camera looks and what is up in its image unless its
-        pose says it, how meshes are turned; z in the worlds of ROS and Blender.
+        The world's axis that is up: it decides where a camera looks and what is up in its image
+        unless its pose says so, and how meshes are turned; z in the worlds of ROS and Blender.
     files : list[SceneFile]
-        Of keyframes.
+        Files of keyframes.
     classes : list[str]
         Classes of objects: Truth::class_id counts them. Empty: those that objects have, by the
         order of their letters.
@@ -2372,14 +2391,13 @@ class RanOn(Record):
     device : str
         Its name: of the GPU, or of the processor's instruction set.
     isa : str
-        Of the processor, which is there in any case: "scalar", "scalar_fma", "avx2", "avx512" or
-        "neon".
+        Instruction set of the processor: "scalar", "scalar_fma", "avx2", "avx512" or "neon".
     threads : int
-        Of the processor.
+        Threads of the processor.
     block_size : int
         Threads per block of the kernel from ray to depth; 0 where the processor computed.
     occupancy : float, 1
-        How full that kernel makes the GPU, 0 … 1.
+        Share of the GPU that the kernel fills, 0 … 1.
     fallback_reason : str
         Why Backend::automatic took no GPU; empty where it did, or where the processor was asked
         for.
@@ -2419,7 +2437,7 @@ class PlanStep(Record):
     Attributes
     ----------
     name : str
-        Of the pass: "from_rays", "bounces", "range_filter" ….
+        Name of the pass: "from_rays", "bounces", "range_filter" ….
     does : str
         What it does, in a few words.
     part : str
@@ -2427,7 +2445,7 @@ class PlanStep(Record):
     over : str
         "tiles", "bands of rows" or "raw frames": what a worker of the processor takes at once.
     pieces : int
-        How many of these there are.
+        Number of pieces.
     """
     __slots__ = ("name", "does", "part", "over", "pieces")
     name: str
@@ -2459,9 +2477,9 @@ class Pinhole(PinholeMethods):
     Attributes
     ----------
     width : int
-        Of the picture, pixels; row 0 is the topmost.
+        Size of the picture in pixels; row 0 is the topmost.
     height : int
-        Of the picture, pixels; row 0 is the topmost.
+        Size of the picture in pixels; row 0 is the topmost.
     fx_px : float, px
     fy_px : float, px
     cx_px : float, px
@@ -2535,12 +2553,12 @@ class PlacedObject(Record):
         Object::name, or its place in the scene as listings say it: "objects.2". A mesh whose file
         has several materials is one.
     start : Placement
-        At the frame's start.
+        Placement at the frame's start.
     end : Placement | None
         Where the next frame starts: it goes there evenly, and on as far again; none: it stands
         still.
     keyframes : list[Keyframe]
-        In place of both, by the scene's time, ascending.
+        Placements in place of both, by the scene's time, ascending.
     """
     __slots__ = ("name", "start", "end", "keyframes")
     name: str
@@ -2571,12 +2589,12 @@ class FrameRequest(Record):
         Chooses the noise; starts at index / frame_rate.
     seed : int | None
     pose : Pose | None
-        Of the camera, at the frame's start.
+        Pose of the camera at the frame's start.
     pose_end : Pose | None
         Where the next frame starts: it goes there evenly, and on as far again; none: it stands
         still.
     camera : list[CameraKeyframe]
-        In place of both poses, by the scene's time, ascending.
+        Poses in place of both poses, by the scene's time, ascending.
     objects : list[PlacedObject]
         Those that are placed from outside; the others move as the scene says.
     start_time_s : float | None, s
@@ -2623,9 +2641,9 @@ class ObjectPlace(Record):
     class_name : str
         Object::class_name.
     position : tuple[float, float, float], m
-        In the world.
+        Position in the world.
     rotation : tuple[float, float, float, float], 1
-        From its own frame's axes to the world's.
+        Rotation from its own frame's axes to the world's.
     endless : bool
         A plane.
     low : tuple[float, float, float], m
@@ -2672,11 +2690,11 @@ class ObjectInView(Record):
     name : str
         As messages call it: "objects.2 (ball)".
     pixels : int
-        That see it.
+        Pixels that see it.
     nearest_m : float | None, m
         Range of the nearest pixel that sees it; none where no pixel does.
     farthest_m : float | None, m
-        Likewise.
+        Range of the farthest pixel that sees it; none where no pixel does.
     endless : bool
         A plane.
     low : tuple[float, float, float], m
@@ -2777,9 +2795,9 @@ class SceneReport(Record):
     Attributes
     ----------
     time_s : float, s
-        Of the scene.
+        Time of the scene.
     pixels : int
-        Of the image.
+        Pixels of the image.
     outside_lens : int
         Pixels without a ray.
     no_surface : int
@@ -2787,11 +2805,11 @@ class SceneReport(Record):
     beyond_reach : int
         Pixels that see what is farther than the ambiguity range.
     ambiguity_range_m : float, m
-        Of the camera's mode; 0 where no raw frame is lit.
+        Ambiguity range of the camera's mode; 0 where no raw frame is lit.
     nearest_m : float | None, m
         Least range of all pixels; none where no ray hits anything.
     farthest_m : float | None, m
-        Likewise the largest.
+        Largest range of all pixels; none where no ray hits anything.
     objects : list[ObjectInView]
         One for each of Scene::objects.
     findings : list[SceneFinding]
@@ -2841,9 +2859,9 @@ class InvalidPixels(Record):
     Attributes
     ----------
     pixels : int
-        Of the image.
+        Pixels of the image.
     valid : int
-        Of them, those that have a depth.
+        Pixels that have a depth.
     wrapped : int
         Valid ones whose surface is beyond the ambiguity range: their depth is too small.
     valid_on_wrong_cycle : int
@@ -2857,9 +2875,9 @@ class InvalidPixels(Record):
     dark : int
         There is a surface within reach, and too little light comes back.
     low_signal : int
-        Too little light; without truth nobody knows what is there.
+        Too little light; without truth, what is there is unknown.
     no_return : int
-        No light; likewise.
+        No light; without truth, what is there is unknown.
     wrong_cycle : int
         Most neighbours are off by whole cycles of a modulation frequency.
     flying_pixel : int
@@ -2867,13 +2885,13 @@ class InvalidPixels(Record):
     outside_lens : int
         The lens model has no ray there.
     inconsistent_phases : int
-        Rejected for these.
+        Rejected for inconsistent phases.
     inconsistent_frequencies : int
-        Likewise.
+        Rejected for inconsistent frequencies.
     ambiguity_range_m : float, m
-        Of the camera's mode; 0 where no raw frame is lit.
+        Ambiguity range of the camera's mode; 0 where no raw frame is lit.
     ranges_m : list[float], m
-        That of each modulation frequency alone.
+        Ambiguity range of each modulation frequency alone.
     """
     __slots__ = ("pixels", "valid", "wrapped", "valid_on_wrong_cycle", "saturated", "no_surface", "beyond_reach", "dark", "low_signal",
                  "no_return", "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies",
@@ -2942,11 +2960,11 @@ class AmbientCase(Record):
     Attributes
     ----------
     name : str
-        What tables call it.
+        Name in tables.
     ambient : Ambient
         none: darkness.
     pose : Pose
-        Of the camera, where the ambient light has a direction.
+        Pose of the camera, where the ambient light has a direction.
     """
     __slots__ = ("name", "ambient", "pose")
     name: str
@@ -2973,7 +2991,7 @@ class CameraQuestion(Record):
     distances_m : list[float], m
         z on the optical axis, 1e-3 to 1e5; empty: 0.5, 1, 2 and 4 m.
     reflectivities : list[float], 1
-        Of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
+        Reflectivities of a matt surface that faces the camera, 0 to 1; empty: 0.2 and 0.8.
     ambients : list[AmbientCase]
         empty: darkness, and all of the standard sun (100 % of sun_am15) from everywhere.
     """
@@ -3000,7 +3018,7 @@ class NoiseAt(Record):
     Attributes
     ----------
     z_m : float, m
-        On the optical axis.
+        Distance on the optical axis.
     sigma_m : float, m
         Standard deviation of the range, expected; NaN: nothing comes back [theory: eq. 4.9].
     wrong_cycle : float, 1
@@ -3037,12 +3055,11 @@ class NoiseAtDistances(Record):
     Attributes
     ----------
     reflectivity : float, 1
-        Of the surface.
+        Reflectivity of the surface.
     ambient : str
         Name of the light that is not the camera's own.
     saturated_up_to_m : float, m
-        From there on to the camera it saturates; 0: not from 5 cm on; everywhere_m: at all
-        distances.
+        Largest distance at which it saturates; 0: none from 5 cm on; everywhere_m: all distances.
     at : list[NoiseAt]
         One for each distance.
     """
@@ -3072,19 +3089,19 @@ class CameraReport(Record):
     Attributes
     ----------
     width : int
-        Of the image.
+        Size of the image in pixels.
     height : int
-        Of the image.
+        Size of the image in pixels.
     width_deg : float, deg
         Field of view between the outer edges of the outermost pixels, through the middle.
     height_deg : float, deg
-        Likewise.
+        Field of view between the outer edges of the outermost rows, through the middle.
     diagonal_deg : float, deg
-        From corner to corner.
+        Field of view from corner to corner.
     pixel_width_m : float, m
-        That one pixel sees at 1 m on the axis.
+        Width that one pixel sees at 1 m on the axis.
     pixel_height_m : float, m
-        Likewise.
+        Height that one pixel sees at 1 m on the axis.
     outside : float, 1
         Share of the pixels that are outside the lens model.
     unlit : float, 1
@@ -3092,11 +3109,11 @@ class CameraReport(Record):
     darkest : float, 1
         Signal of the darkest lit pixel over the brightest one's, of that wall.
     modulation_frequency_hz : list[float], Hz
-        Of the mode.
+        Modulation frequencies of the mode.
     cycles : list[int]
-        Of each of them in the ambiguity range: M and N of two.
+        Cycles of each of them in the ambiguity range: M and N of two.
     ambiguity_range_m : float, m
-        Of the mode; 0 where no raw frame is lit.
+        Ambiguity range of the mode; 0 where no raw frame is lit.
     low_signal_m : float, m
         σ above this is flagged.
     knows_ambient : bool
@@ -3179,9 +3196,9 @@ class ChainRawFrame(Record):
     signal_e : float, e
         Ground truth S, both taps.
     direct_e : float, e
-        By one surface and by several, before the lens scatters them.
+        Electrons by one surface and by several, before the lens scatters them.
     indirect_e : float, e
-        By one surface and by several, before the lens scatters them.
+        Electrons by one surface and by several, before the lens scatters them.
     multipath_m : float, m
         What that does to the half path [theory: eq. 7.8].
     path_noise_m : float, m
@@ -3340,21 +3357,21 @@ class PixelChain(Record):
     true_range_m : float, m
     true_z_m : float, m
     reflectivity : float, 1
-        Of the surface.
+        Reflectivity of the surface.
     incidence_rad : float, rad
     object_share : float, 1
-        Of samples within the pixel.
+        Truth of samples within the pixel.
     mixed : float, 1
-        Of samples within the pixel.
+        Truth of samples within the pixel.
     position_m : tuple[float, float, float], m
     normal : tuple[float, float, float], 1
-        Of unit length.
+        Normal of unit length.
     irradiance_w_m2 : float, W/m2
-        On the surface.
+        Irradiance on the surface.
     radiance_w_m2_sr : float, W/(m2 sr)
-        Back from it.
+        Radiance back from it.
     power_w : float, W
-        On the pixel.
+        Power on the pixel.
     raw_frames : list[ChainRawFrame]
     phases : list[ChainPhase]
         One for each modulation frequency.
@@ -3469,9 +3486,9 @@ class BounceShare(Record):
     first : int
     last : int
     share : float, 1
-        Of the electrons of all lit raw frames, 0 … 1.
+        Share of the electrons of all lit raw frames, 0 … 1.
     electrons : list[float], e
-        By raw frame, before the lens scatters them.
+        Electrons by raw frame, before the lens scatters them.
     multipath_m : list[float], m
         By raw frame: what it adds to the half path once all before it are there [theory: eq. 7.8].
     """
@@ -3501,7 +3518,7 @@ class BounceShare(Record):
 class PixelBounces(Record):
     """One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone,
     so that frames with fewer bounces follow the beginnings of the same paths: what a bounce adds is
-    the difference of two frames, without error of chance between them.
+    the difference of two frames, without Monte Carlo error between them.
 
     Attributes
     ----------
@@ -3534,8 +3551,8 @@ class Validity(Record):
         "12 dark, 3 no surface"; empty where all are valid.
     advice : str
         Where fewer than half are valid, the reason of most, and what helps: "71 % dark: noise 0.11
-        m at the median; more light …"; likewise where many have a depth that is whole cycles off.
-        Lines behind the first are indented.
+        m at the median; more light …"; also where many have a depth that is whole cycles off. Lines
+        behind the first are indented.
     has_light : bool
         The camera's own has any power.
     """
@@ -3567,11 +3584,11 @@ class InputFile(Record):
     role : str
         "scene", "profile", "table", "mesh", "keyframes", ….
     name : str
-        As the caller or the scene names it; a built-in name where `text` is empty.
+        Name by the caller or the scene; a built-in name where `text` is empty.
     text : str
         The whole file, UTF-8; empty for what is built in, and for meshes and keyframes.
     sha256 : str
-        Of a mesh and of keyframes, which may be too long to be here.
+        SHA-256 of a mesh and of keyframes, which may be too long to be here.
     """
     __slots__ = ("role", "name", "text", "sha256")
     role: str
@@ -3637,7 +3654,7 @@ class Inputs(Record):
     files : list[InputFile]
         The scene first.
     remarks : list[Remark]
-        What is odd about them and can be simulated all the same.
+        Remarks on the inputs, which can be simulated all the same.
     """
     __slots__ = ("scene", "camera", "files", "remarks")
     scene: Scene
@@ -3696,16 +3713,16 @@ class RunResult(Record):
     files : list[FileRecord]
         Manifest.json last.
     frames : int
-        How many are complete.
+        Number of complete frames.
     interrupted : bool
         Fewer than were asked for.
     remarks : list[Remark]
-        Of the inputs, the scene as the camera sees it, the frames, the folder.
+        Remarks on the inputs, the scene as the camera sees it, the frames, the folder.
     last : Validity
-        Of the last frame's depth.
+        Validity of the last frame's depth.
     ran_on : RanOn
     timings_s : list[tuple[str, float]], s
-        By stage: prepare, simulate, write.
+        Seconds by stage: prepare, simulate, write.
     """
     __slots__ = ("folder", "files", "frames", "interrupted", "remarks", "last", "ran_on", "timings_s")
     folder: str

@@ -32,7 +32,7 @@ class Geometry:
     shadow : uint8 array [light, height, width], 1, optional
         1 where the light does not reach.
     sun_shadow : uint8 array [height, width], 1, optional
-        The same of ambient light with a direction.
+        1 where ambient light with a direction does not reach.
     """
 
     __slots__ = ("diffuse", "exponent", "normal", "object_id", "shadow", "specular", "sun_shadow", "z_m")

@@ -184,14 +184,14 @@ class Samples:
         return out
 
     def order(self, seed: int = 0, epoch: int = 0) -> NDArray[np.int64]:
-        """Each row that is there once, by chance: shard after shard, so that few are open at once.
+        """Each row that is there once, in random order: shard after shard, so that few are open at once.
 
         Parameters
         ----------
         seed : int
-            Another one, another order.
+            Seed of the order.
         epoch : int
-            Likewise.
+            Number of the epoch; each has another order.
 
         Returns
         -------
@@ -220,7 +220,7 @@ class Samples:
         seed : int
             As ``order`` takes it.
         epoch : int
-            Likewise.
+            As ``order`` takes it.
         start : int
             Batches of this rank that were taken before: goes on behind them.
 

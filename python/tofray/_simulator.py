@@ -173,7 +173,7 @@ class Simulator:
             Where the camera stands in this frame; or where it is at the frame's start and where the next frame starts: it goes there
             evenly; or keyframes, by the scene's time.
         objects : mapping of str to Placement, pair of Placement, or sequence of Keyframe, optional
-            Likewise of objects, by their names (or as "objects.2"), in place of their own motion. Others move as the scene says.
+            Where objects stand, by their names (or as "objects.2"), in place of their own motion. Others move as the scene says.
             The bytes are those of a scene with the same keyframes. The first frame that places other objects than those before takes as
             long as a new simulator; then no hierarchy is built anew.
         time_s : float, optional, s

@@ -74,7 +74,7 @@ class View:
     Attributes
     ----------
     url : str
-        To be opened in a browser. It has a key: whoever has it sees and changes the view.
+        To be opened in a browser. It has a key: all who have it see and change the view.
     port : int
         Of this machine, which the viewer listens on.
     """

@@ -14,7 +14,7 @@ struct BudgetColumn {
   double (*of)(const BudgetRow& row);  ///< NaN: there is none
 };
 
-/// Likewise what is yes or no.
+/// A yes or no of a budget's rows, as CSV, JSON and Python call it.
 struct BudgetFlag {
   const char* name;
   bool BudgetRow::*member;

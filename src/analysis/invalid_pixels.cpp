@@ -21,7 +21,7 @@ NoDepth analysis::reason_by_flags(std::uint16_t flags) {
 
 namespace {
 
-/// A frame's truth, pixel by pixel, where it is there. Where nobody wrote which object it is, a range says that there is a surface.
+/// A frame's truth, pixel by pixel, where it is there. Where the object is not known, a range says that there is a surface.
 class PixelTruth {
  public:
   PixelTruth(const Frame& frame, double reach_m)
@@ -51,7 +51,7 @@ class PixelTruth {
   bool known_, named_;
 };
 
-/// The frame's depth as it is where nobody looks for flying pixels; empty where its raw data are not there.
+/// The frame's depth without the check for flying pixels; empty where its raw data are not there.
 Depth with_flying_pixels(const Frame& frame, Camera camera) {
   const Raw& raw = frame.raw;
   if (raw.raw.empty() && (raw.tap_a.empty() || raw.tap_b.empty())) return {};

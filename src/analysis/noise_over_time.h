@@ -41,8 +41,8 @@ class NoiseOverTime {
  private:
   struct Pixel {
     std::uint32_t count = 0;
-    double z = 0, z_squares = 0;          ///< mean, and squares about it
-    double range = 0, range_squares = 0;  ///< likewise
+    double z = 0, z_squares = 0;          ///< mean of z, and squares about it
+    double range = 0, range_squares = 0;  ///< mean of the range, and squares about it
     double least = 0, most = 0;           ///< range
     double claimed = 0, of_z = 0;         ///< sums of the squares of noise_m, of the range and as z
   };

@@ -15,7 +15,7 @@ using Kind = SceneFinding::Kind;
 namespace {
 
 constexpr double same_m = 1e-6;
-/// Of more objects than these nobody asks which is inside which: it would take longer than a frame.
+/// Most objects that are compared for one inside another: more would take longer than a frame.
 constexpr std::size_t most_compared = 2000;
 constexpr std::size_t most_told = 5;
 

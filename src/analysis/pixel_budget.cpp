@@ -23,7 +23,7 @@ Scene lit_by(const AmbientCase& light) {
   return out;
 }
 
-/// The camera whose taps hold the camera's own light as it is collected.
+/// The camera whose taps hold the camera's illumination as it is collected.
 Camera that_only_collects(Camera camera) {
   Pixel& pixel = camera.pixel;
   pixel.full_well_e = 1e30, pixel.nonlinearity = {};

@@ -11,7 +11,7 @@
 namespace tofray::analysis {
 
 /// Rows of a budget of one pixel in one light. Light and charge come of simulated frames without noise, one as the camera is, and one whose
-/// taps hold nothing but the camera's own light.
+/// taps hold nothing but the camera's illumination.
 class PixelBudget {
  public:
   /// @param pixel  of pixel_alone(), with the exposures that it has

@@ -40,7 +40,7 @@ void read_truth(const PixelArrays& arrays, std::size_t pixel, PixelChain& out) {
   out.power_w = arrays.at("gt_power_w", pixel);
 }
 
-/// @param camera  none: nobody knows what a code amounts to
+/// @param camera  none: what a code amounts to is unknown
 void read_raw_frames(const PixelArrays& arrays, const Camera* camera, bool noise_free, std::size_t pixel, PixelChain& out) {
   const std::size_t pixels = static_cast<std::size_t>(arrays.width) * static_cast<std::size_t>(arrays.height);
   const double step = camera == nullptr ? std::nan("") : camera->adc.step_e_per_dn / camera->mode.gain,
@@ -65,7 +65,7 @@ void read_raw_frames(const PixelArrays& arrays, const Camera* camera, bool noise
   }
 }
 
-/// What decodes arrays of which nobody knows the camera: any with their raw frames, whose phases it can estimate, too.
+/// The decoder of arrays whose camera is unknown: any with their raw frames, whose phases it can estimate, too.
 Camera any_camera(const PixelArrays& arrays, const PixelChain& chain) {
   Camera any;
   any.sensor.width = arrays.width, any.sensor.height = arrays.height, any.sensor.pixel_pitch_m = 1e-5;

@@ -18,7 +18,7 @@ double sum_of(const Terms& terms);
 
 /// Expected electrons of a raw frame.
 struct Collected {
-  double own_a = 0, own_b = 0;  ///< the camera's own light in each tap
+  double own_a = 0, own_b = 0;  ///< electrons of the camera's illumination in each tap
   double ambient = 0;           ///< ambient light in both taps together
   double dark = 0;              ///< dark charge in each tap
 };
@@ -30,7 +30,7 @@ struct ReadFrame {
   Terms variance{};       ///< of A−B [e²]
 };
 
-/// Expected values and variances through 3.6: gains and offsets of the taps, background suppression, non-linearity, converter.
+/// Expected values and variances through 3.6: gains and offsets of the taps, background suppression, nonlinearity, converter.
 ReadFrame read_frame(const camera::SensorView& sensor, const Collected& light);
 
 /// A modulation frequency's phase, and the noise of the half path that it says.

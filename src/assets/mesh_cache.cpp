@@ -28,7 +28,7 @@ Cache& cache() {
   return *all;
 }
 
-/// Those of a key; files are looked at without the lock.
+/// Entries of a key; files are looked at without the lock.
 std::vector<Entry> entries_of(const MeshKey& key) {
   const std::lock_guard lock(cache().mutex);
   std::vector<Entry> out;

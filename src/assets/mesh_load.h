@@ -63,7 +63,7 @@ class MeshReader {
   void set_world_up(Scene::Up up) { world_up_ = up; }
   /// Says that read() will want this file's materials: its SHA-256 then is that of all that it names, for all objects.
   void want_materials(const std::string& file) { with_materials_.insert(file); }
-  /// … the pictures that this PLY file wears.
+  /// Says that read() will want the pictures that this PLY file wears: its SHA-256 then is that of all that it names.
   void want_pictures(const std::string& file) { with_pictures_.insert(file); }
   /// What `mesh` shows by its file, scale, up, time and play.
   /// @param by_material  whether a glTF or OBJ file's materials are wanted apart

@@ -26,7 +26,7 @@ struct FileMaterial {
   From from = From::nothing;
   bool mean_finish = false;    ///< its metal and roughness are means of a picture
   bool varying_color = false;  ///< its vertices have several colours, which its mesh has as shades
-  bool mean_color = false;     ///< … but of what is metal their mean is used
+  bool mean_color = false;     ///< its vertices have several colours, of which the mean is used, since it is metal
   bool lost_normals = false;   ///< it has a picture of normals that cannot be used
   bool lets_through = false;   ///< it would let light through in part, and is a surface or none
   bool lost_alpha = false;     ///< it would be cut out by what cannot be used: alphas of vertices, or a picture that lies nowhere
@@ -42,7 +42,7 @@ struct MeshPiece {
   std::size_t left_out = 0;
   FileMaterial of = {};
   bool by_material = false;                       ///< the triangles of one material of a glTF file
-  int number = -1;                                ///< … this one; −1: those that have none
+  int number = -1;                                ///< the material of these triangles; −1: those without a material
   std::shared_ptr<const MeshMotion> motion = {};  ///< in the file's own axes and unit
 };
 

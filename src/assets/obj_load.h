@@ -32,11 +32,11 @@ class ObjMaterials {
   /// @throws Error as mesh::parse_mtl, and (limit) as read_beside(); it says that a material of the object's own is a way out
   ObjMaterials(const mesh::ReadMesh& mesh, const std::string& path, const std::string& root);
 
-  /// Those of the MTL files, as mtllib names them, and of the pictures, as usemtl first names their materials; each once.
+  /// Bytes of the MTL files, as mtllib names them, and of the pictures, as usemtl first names their materials; each once.
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
   /// Whether there is a picture that it wears.
   [[nodiscard]] bool has_pictures() const { return !pictures_.empty(); }
-  /// Those that are not there, and which were found elsewhere.
+  /// Notices of files that are not there, and of those that were found elsewhere.
   void tell_of_files(std::vector<std::string>& notices) const;
 
   /// A piece for each material that has triangles: those without one first, then as usemtl first names them.
@@ -61,8 +61,8 @@ class ObjMaterials {
   std::string bytes_;
   std::vector<mesh::MtlMaterial> all_;
   std::vector<std::string> folder_of_;  ///< of each: its MTL file's
-  std::vector<int> known_;              ///< of each name that the mesh uses: in all_, or -1
-  std::vector<int> picture_of_;         ///< likewise: in pictures_, or -1
+  std::vector<int> known_;              ///< index in all_ of each name that the mesh uses, or -1
+  std::vector<int> picture_of_;         ///< index in pictures_ of each name that the mesh uses, or -1
   std::vector<Picture> pictures_;
   std::map<std::string, int> picture_at_;  ///< by name
   std::size_t picture_bytes_ = 0;

@@ -11,7 +11,7 @@
 namespace tofray::base {
 
 /// What arrays hold, in 128 bits: two that differ have the same with a chance of 10⁻³⁸. Several gigabytes a second; no protection against
-/// somebody who looks for two.
+/// an attacker who looks for two.
 class Content {
  public:
   template <class T>

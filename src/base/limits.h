@@ -38,7 +38,7 @@ inline constexpr Limit sensor_side{"sensor_side", 16'384, "pixels along one side
 inline constexpr Limit sensor_pixels{"sensor_pixels", 1 << 24, "pixels of the sensor"};
 inline constexpr Limit subpixel_rays{"subpixel_rays", 1 << 26, "pixels times samples within each"};
 inline constexpr Limit path_surfaces{"path_surfaces", std::int64_t{1} << 34,
-                                     "pixels times ways of light for each times surfaces that each may meet beyond the first"};
+                                     "pixels times light paths for each times surfaces that each may meet beyond the first"};
 inline constexpr Limit light_values{
     "light_values", 1 << 29, "values of the images of light: pixels times what is kept of the light of each, at all times of a frame"};
 inline constexpr Limit transient_values{"transient_values", 1 << 28,
@@ -53,7 +53,8 @@ inline constexpr Limit unpacked_bytes{"unpacked_bytes", 64 << 20, "bytes that an
 inline constexpr Limit unpacked_ratio{"unpacked_ratio", 100, "times its own size that a larger data file may unpack to"};
 inline constexpr Limit mesh_bytes{"mesh_bytes", 1 << 30, "bytes of one file of a triangle mesh"};
 inline constexpr Limit mesh_vertices{"mesh_vertices", 20'000'000, "vertices of one triangle mesh, and of all that a scene's files hold"};
-inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000, "triangles likewise, polygons taken apart"};
+inline constexpr Limit mesh_triangles{"mesh_triangles", 20'000'000,
+                                      "triangles of one triangle mesh, and of all that a scene's files hold, polygons divided"};
 inline constexpr Limit mtl_files{"mtl_files", 100, "files of materials (MTL) that one OBJ file names"};
 inline constexpr Limit mtl_bytes{"mtl_bytes", 16 << 20, "bytes of all MTL files of one OBJ file"};
 inline constexpr Limit mtl_materials{"mtl_materials", 100'000, "materials in them, and as many names that the OBJ file uses"};

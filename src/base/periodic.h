@@ -18,7 +18,7 @@ std::vector<double> over_a_period(const std::vector<double>& phases_rad, const s
 /// @param samples  equally spaced over the period, an even number: then images of odd harmonics are odd, and this is exact
 double even_share(const std::vector<double>& samples);
 
-/// The same of samples of which an odd number was measured, or an uneven one: there an odd harmonic m beyond what they carry shows as the even
+/// Share of even harmonics where the samples are odd in number or unevenly spaced: there an odd harmonic m beyond what they carry shows as the even
 /// one measured − m. Of each even harmonic counts only what is more than such an image, where the odd ones fall as 1/m or faster.
 /// @param samples   equally spaced over the period
 /// @param measured  how many of them there were before a spline went through them

@@ -10,7 +10,7 @@
 /// What arrays by raw frame may hold that come from elsewhere, and which unit they may have been meant in.
 namespace tofray::base {
 
-/// That of profiles.
+/// Ranges of a recording's numbers, the same as those of profiles.
 inline constexpr Range recorded_frequency_hz{1e3, 1e10}, recorded_phase_rad{-100, 100}, recorded_time_s{1e-9, 1e3};
 
 /// Something that is wrong with one of the arrays.

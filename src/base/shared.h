@@ -12,13 +12,13 @@
 /// holds all that the result depends on.
 namespace tofray::base {
 
-/// Bytes of results that nobody uses any more and that are kept all the same, the last used ones: who makes one simulator after the other
+/// Bytes of unused results that are kept all the same, the last used ones: a program that makes one simulator after the other
 /// finds what the one before had.
 inline constexpr std::size_t kept_bytes = 64u << 20;
 
 /// Keeps a result for a while, unless it is larger than all that may be kept. @param bytes  of it
 void keep(const std::shared_ptr<const void>& result, std::size_t bytes);
-/// Lets go of all results that nobody uses, of any kind: the next ones are made anew.
+/// Lets go of all unused results, of any kind: the next ones are made anew.
 void forget_kept();
 
 /// Results of one kind by their key. For any number of threads.

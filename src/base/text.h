@@ -15,7 +15,7 @@ std::size_t utf8_length(std::string_view text, std::size_t i);
 /// turn the direction of writing or end a line as \uNNNN: what comes from outside cannot steer a terminal, nor look like what it is not.
 /// JSON, whose strings hold neither of the former, stays JSON.
 std::string printable(std::string_view text);
-/// The same of a text that has ends of lines and tabs.
+/// printable() of a text that keeps its ends of lines and tabs.
 std::string printable_lines(std::string_view text);
 
 /// A message of several lines as it may be shown: each line printable() and at most limit::message_line_bytes (the middle of a longer one

@@ -20,9 +20,9 @@ struct Portion {
 std::optional<Portion> uniform_place(double value, double a, double b);
 std::optional<Portion> log_uniform_place(double value, double a, double b);
 std::optional<Portion> normal_place(double value, double mean, double sigma, double low, double high);
-/// Of number `which` out of `count`, each as likely.
+/// Place of number `which` out of `count` equally likely ones.
 Portion place_among(double which, double count);
-/// Likewise, each as likely as its weight says.
+/// Place of number `which` out of those that are as likely as their weights say.
 Portion place_by_weight(std::size_t which, const std::vector<double>& weights);
 
 /// Draws of one key, by their place in their law.

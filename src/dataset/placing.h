@@ -21,7 +21,7 @@ struct Scatter {
   std::size_t first = 0, count = 0;  ///< its objects in the scene's list
   std::string surface;               ///< name of the object that they lie on; empty: they float
   std::vector<double> box;           ///< where they float [m]: low x, y, z, high x, y, z; empty: in what the camera sees
-  double near_m = 0, far_m = 0;      ///< … from z to z of the camera
+  double near_m = 0, far_m = 0;      ///< z of the camera from which to which they float, in what the camera sees
   double within_m = 0;               ///< from the middle of the surface; 0: all of it
   double gap_m = 0;
   int tries = 100;

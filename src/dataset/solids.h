@@ -35,7 +35,7 @@ struct OwnBox {
 };
 /// None of a plane, and of a mesh without triangles.
 std::optional<OwnBox> own_box(const Object& object);
-/// The same where it stands.
+/// The object's box in the world.
 Solid solid_of(const Object& object, const OwnBox& box);
 
 /// What an object may lie on: a flat piece, and the side that is up.

@@ -18,8 +18,8 @@ struct Quantised {
   std::string array;
   files::NpyType type;
   double step = 0;                        ///< in the array's unit
-  [[nodiscard]] double least() const;     ///< code
-  [[nodiscard]] double most() const;      ///< likewise
+  [[nodiscard]] double least() const;     ///< smallest code of a number
+  [[nodiscard]] double most() const;      ///< largest code of a number
   [[nodiscard]] double no_value() const;  ///< the code of NaN: the greatest of an unsigned type, the least of a signed one
 };
 

@@ -135,7 +135,7 @@ TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModula
   return num::fnma(removed, F(1.0f / static_cast<float>(m.count)), charge);
 }
 
-/// V̂ where what is read of a charge is not the charge: that of the charge, times the square of the curve's slope where it is read. Only the
+/// Variance with a nonlinear readout: charge variance × (slope of the readout curve)². Only the
 /// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.  [eq. 4.21]
 /// @param known  electrons of both taps that are no signal: ambient light and dark current
 template <class F>

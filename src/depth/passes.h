@@ -27,7 +27,7 @@ template <class F>
 TOFRAY_FN Mask<F> is_apart(const FlyingImage& image, int neighbour, int count, F here, F limit) {
   return num::abs(num::load<F>(image.z + neighbour, count) - here) > limit;
 }
-/// … and by more than k√(σ̂² + σ̂_n²), by squares.                                                       [eq. 4.16]
+/// Whether a neighbour's z is off by more than k√(σ̂² + σ̂_n²), by squares.                                                       [eq. 4.16]
 template <class F>
 TOFRAY_FN Mask<F> is_no_noise(const camera::DecoderView& s, const FlyingImage& image, int neighbour, int count, F here, F variance) {
   const F apart = num::load<F>(image.z + neighbour, count) - here, noise = num::load<F>(image.noise + neighbour, count);

@@ -25,10 +25,10 @@ struct Adc {
     const double upper = camera.decoding.upper_saturation_dn.value_or(adc.valid_max);
     s.valid_middle = f(0.5 * (lower + upper)), s.valid_half = f(0.5 * (upper - lower));
   }
-  /// It reads once.
+  /// Binned pixels are converted once.
   template <class Pixel>
   static void bin(Pixel&, int) {}
-  /// Of rounding: s²/12.                                                                              [theory: eq. 3.9]
+  /// Variance of rounding: s²/12.                                                                              [theory: eq. 3.9]
   template <class Camera>
   static double variance(const Camera& camera) {
     const double step = step_of(camera);

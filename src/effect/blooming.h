@@ -10,7 +10,7 @@ struct Blooming {
   struct View {
     std::int32_t blooms;   ///< 1: they do
     float blooming_share;  ///< of what overflows to each neighbour
-    float blooming_limit;  ///< who gets more [e⁻] is flagged
+    float blooming_limit;  ///< a pixel that receives more [e⁻] is flagged
     bool operator==(const View&) const = default;
   };
   template <class Camera>

@@ -16,7 +16,7 @@ struct ReadNoise {
     const double noise = of(camera);
     s.read_noise = static_cast<float>(noise), s.read_variance = static_cast<float>(noise * noise);
   }
-  /// It comes once, with the amplifier.
+  /// Binned pixels have read noise once, by the amplifier.
   template <class Pixel>
   static void bin(Pixel&, int) {}
 

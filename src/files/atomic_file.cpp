@@ -121,7 +121,7 @@ const FileCalls& system_file_calls() {
 std::string free_room(std::filesystem::path path) {
   struct statvfs room {};
   while (::statvfs(path.empty() ? "." : path.c_str(), &room) != 0) {
-    if (path.empty() || path == path.parent_path()) return "nobody knows how much";
+    if (path.empty() || path == path.parent_path()) return "an unknown number of bytes";
     path = path.parent_path();
   }
   return room_text(room) + " in " + (path.empty() ? "." : path.native());

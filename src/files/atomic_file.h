@@ -42,7 +42,7 @@ void remove_stale_temporaries(const std::filesystem::path& folder);
 /// the process. A write that is under way in another thread ends with an Error.
 void remove_live_temporaries() noexcept;
 
-/// The same, and no other begins: every write from now on ends with an Error.
+/// Removes the files that are being written, and lets no other begin: every write from now on ends with an Error.
 void end_writing() noexcept;
 
 }  // namespace tofray::files

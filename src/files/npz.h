@@ -31,7 +31,7 @@ NpyView npy_view(const std::string& name, const NpyShape& shape, const Vector& d
 
 /// The bytes of a .npz file. Entries stand in the order given; their time is 1980-01-01 in every time zone.
 std::string npz_bytes(const std::vector<NpyView>& arrays, Packing packing = Packing::stored);
-/// The same into memory that is used again.
+/// The bytes of a .npz file, into memory that is used again.
 void npz_bytes(const std::vector<NpyView>& arrays, Packing packing, std::string& file);
 
 struct NamedArray {

@@ -19,7 +19,7 @@ namespace tofray::files {
 /// folder: who ends, however it ends, leaves no lock behind. (A file system that has no locks gives none.)
 class OutputFolder {
  public:
-  /// @throws Error (io) where the folder cannot be made, a file is in its place, or somebody else writes into it
+  /// @throws Error (io) where the folder cannot be made, a file is in its place, or another process writes into it
   explicit OutputFolder(std::filesystem::path path);
 
   /// Writes one file. Several threads may do so at once. @throws Error (io)

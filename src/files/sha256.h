@@ -27,7 +27,7 @@ class Sha256 {
 /// SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
 
-/// The same of parts that follow each other, without a copy of them all.
+/// SHA-256 of parts that follow each other, without a copy of them all.
 std::string sha256_hex(std::span<const std::string_view> parts);
 
 }  // namespace tofray::files

@@ -37,7 +37,7 @@ class StreamedFile {
   std::string finish();
   /// Gives it its name in one step. @return false where there is a file of that name, which stays @throws Error (io)
   bool publish();
-  /// The same in place of whatever file has the name.
+  /// Gives it its name in one step, in place of any file that has the name.
   void replace();
 
  private:

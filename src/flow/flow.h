@@ -122,7 +122,7 @@ struct Light {
 /// What the truth arrays show of it.
 template <class F>
 struct Radiometry {
-  F irradiance;  ///< [W/m²] on the surface, of the camera's own light
+  F irradiance;  ///< [W/m²] on the surface, by the camera's illumination
   F radiance;    ///< [W/(m² sr)] toward the camera
   F power;       ///< [W] on the pixel
 };

@@ -15,16 +15,16 @@ namespace tofray::flow {
 /// nearest and farthest range [m] that they see (3e38 and 0: they see nothing).
 struct LightImage {
   float* values;           ///< [time][plane][height][width]; null: there is none
-  float* before;           ///< the same before the last sample was added: what is written is never read, so that it may be written twice
-  float* rows;             ///< the same, scattered along rows alone; null where the lens scatters nothing
-  float* scattered;        ///< … and along columns: what reaches the pixels; null likewise
-  float* indirect;         ///< what has met more than one surface, likewise; null where light does not bounce
-  float* indirect_before;  ///< … before the last sample's was added
+  float* before;           ///< `values` before the last sample was added: what is written is never read, so that it may be written twice
+  float* rows;             ///< `values`, scattered along rows alone; null where the lens scatters nothing
+  float* scattered;        ///< `values`, scattered along rows and columns: what reaches the pixels; null where the lens scatters nothing
+  float* indirect;         ///< light that has met more than one surface, in the shape of `values`; null where light does not bounce
+  float* indirect_before;  ///< `indirect` before the last sample was added
   float*
-      guide;  ///< [7][height][width] position [m], normal and reflectivity of what a pixel sees, 0: nothing; or null: nobody compares neighbours
+      guide;  ///< [7][height][width] position [m], normal and reflectivity of what a pixel sees, 0: nothing; or null: neighbours are not compared
   float* error;           ///< [modulation][height][width] paths·(error across Ẑ)² [e⁻²], as two halves of the paths show it; or null
   float* noise;           ///< [modulation][height][width] variance across Ẑ [e⁻²], of many pixels together; or null
-  float* smoothed_noise;  ///< … once the light is smoothed; or null
+  float* smoothed_noise;  ///< `noise` once the light is smoothed; or null
   std::int32_t* goal;     ///< [height][width] paths that a pixel shall have; null: all as many
   std::int32_t halves;    ///< 1: behind the indirect light is half the difference of what two halves of its paths say
   std::int32_t times;     ///< 1, or one for each raw frame

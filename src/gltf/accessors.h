@@ -25,7 +25,7 @@ struct Wanted {
   const char* type;        ///< "VEC3"
   const char* other_type;  ///< also good, or nullptr
   unsigned as;             ///< of `written`
-  const char* text;        ///< the same for messages: "VEC3 of floats"
+  const char* text;        ///< type and component type for messages: "VEC3 of floats"
 };
 
 /// What an accessor says of itself, checked against its views.
@@ -62,9 +62,9 @@ class Accessors {
   /// @param user  who asks, for messages
   /// @throws Error where the accessor is not as wanted; (limit) where all numbers would take too much memory
   Floats floats(int accessor, const Wanted& wanted, const Item& user);
-  /// The same, where each has to be finite.
+  /// The floats of an accessor, each of which has to be finite.
   Floats finite_floats(int accessor, const Wanted& wanted, const Item& user);
-  /// The same, where those that are not finite become 0. @param count  raised by their number
+  /// The floats of an accessor, of which those that are not finite become 0. @param count  raised by their number
   Floats mended_floats(int accessor, const Wanted& wanted, const Item& user, std::size_t& count);
   /// Whole numbers below `limit`. @param things  what they number: "vertices"
   Wholes wholes_below(int accessor, const Wanted& wanted, const Item& user, std::uint64_t limit, std::string_view things);

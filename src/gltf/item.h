@@ -61,7 +61,7 @@ class Item {
 
   /// @throws Error: this object's place, `what`; then `more`
   [[noreturn]] void fail(const std::string& what, const std::string& more, ErrorKind kind = ErrorKind::bad_input) const;
-  /// The same of a member.
+  /// @throws Error: the place of this object's member, `what`; then `more`
   [[noreturn]] void fail_at(std::string_view key, const std::string& what, const std::string& more,
                             ErrorKind kind = ErrorKind::bad_input) const;
 

@@ -138,7 +138,7 @@ class PrimitiveReader {
       without = without || sum == 0;
       scaled = scaled || (sum > 0 && std::abs(sum - 1) > most_off);
     }
-    if (without) reading_.notices.add("vertices without weights hang on their first joint");
+    if (without) reading_.notices.add("vertices without weights follow their first joint");
     if (scaled) reading_.notices.add("weights of vertices that do not add up to 1 are scaled");
   }
 

@@ -44,7 +44,7 @@ struct Material {
   double ior = 1.5;                         ///< KHR_materials_ior: at least 1, or 0: a mirror
   double specular = 1;                      ///< KHR_materials_specular: the factor
   std::optional<double> nir_reflectivity;   ///< of the material's extras
-  std::optional<std::string> nir_material;  ///< likewise: the name of a material that is built in
+  std::optional<std::string> nir_material;  ///< name of a built-in material, in the material's extras
 };
 
 struct Texture {
@@ -74,7 +74,7 @@ struct Primitive {
   Floats colors;                    ///< color_width for each vertex, or null
   std::size_t color_width = 4;      ///< 3 or 4
   Wholes joints;                    ///< four for each vertex, or null: indices of a skin's joints
-  Floats joint_weights;             ///< likewise
+  Floats joint_weights;             ///< four for each vertex, or null: weights of the joints
   std::vector<MorphTarget> targets;
 
   [[nodiscard]] std::size_t vertices() const { return positions->size() / 3; }

@@ -72,7 +72,7 @@ class Placer {
     return sum;
   }
 
-  /// The mean of the joints' matrices; a vertex without weights hangs on its first joint.
+  /// The mean of the joints' matrices; a vertex without weights follows its first joint.
   [[nodiscard]] Matrix blended(std::size_t i) const {
     const float* weight = primitive_.joint_weights->data() + 4 * i;
     const std::uint32_t* joint = primitive_.joints->data() + 4 * i;

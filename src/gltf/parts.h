@@ -18,8 +18,8 @@ struct Part {
   int node = none, material = none;                            ///< of the model
   TriangleMesh mesh;                                           ///< vertices finite
   std::vector<std::array<float, 3>> normals;                   ///< of unit length, or 0 where none is known; empty or one for each vertex
-  std::array<std::vector<std::array<float, 2>>, 2> texcoords;  ///< likewise
-  std::vector<std::array<float, 4>> colors;                    ///< likewise
+  std::array<std::vector<std::array<float, 2>>, 2> texcoords;  ///< of both sets; empty or one for each vertex
+  std::vector<std::array<float, 4>> colors;                    ///< empty or one for each vertex
   std::size_t not_finite = 0;                                  ///< triangles left out
 };
 

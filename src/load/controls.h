@@ -29,7 +29,7 @@ struct Control {
   std::string fallback;               ///< what holds where the key is absent
   std::string what;                   ///< one line
   std::string source;                 ///< where the number comes from, as its profile says it
-  bool assumed = false;               ///< … and that it is an assumption
+  bool assumed = false;               ///< whether the number is an assumption, as its profile says
   std::optional<double> slider_low, slider_high;
   bool logarithmic = false;
   bool settable = true;  ///< false: it does not go with another key that is in force

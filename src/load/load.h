@@ -25,7 +25,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// @throws Error with every fault at once
 Scene load_scene(const std::string& file_or_name, const Settings& settings, const assets::MeshFiles& meshes = {});
 
-/// The same from a text. `source` is the file's name for messages and where profiles and meshes beside the scene are looked for.
+/// A scene from its text. `source` is the file's name for messages and where profiles and meshes beside the scene are looked for.
 Scene scene_from_text(const std::string& text, const std::string& source, const Settings& settings = {},
                       const assets::MeshFiles& meshes = {});
 

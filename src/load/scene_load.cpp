@@ -82,7 +82,7 @@ class SceneReader {
   }
 
  private:
-  /// It is known before any pose is read.
+  /// Reads `world_up`, before any pose is read.
   void set_world_up(const Value& root, Scene& out) {
     const Value& said = root["world_up"];
     if (said.text == "z") out.world_up = Scene::Up::z;
@@ -236,7 +236,7 @@ class SceneReader {
       faults_.add(value["play"].place(), "play is for glTF files", "an OBJ, PLY or STL file has no animation");
   }
 
-  /// Those out of files, once all else that was read is good.
+  /// Reads keyframes out of files, once all else that was read is good.
   void read_keyframes(const Value& root, Scene& scene) {
     const Value& of_camera = root["camera"]["keyframes"];
     if (of_camera.is_map() && faults_.empty()) {

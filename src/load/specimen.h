@@ -10,7 +10,7 @@
 /// What decoding knows of a specimen, out of a file of its own.
 namespace tofray::load {
 
-/// Who names a calibration's file, and where it lies then.
+/// The file that names a calibration's file, and where that lies then.
 struct NamedBy {
   std::string folder;     ///< empty: it can name none
   std::string root;       ///< as of files::read_reference

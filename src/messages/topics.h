@@ -66,7 +66,7 @@ const std::vector<Profile>& profiles();
 
 /// The groups that MessageOptions::topics chooses from.
 const std::vector<std::string>& topic_groups();
-/// Those that a driver has without being asked.
+/// Groups that a driver has without being asked.
 std::vector<std::string> usual_groups(Driver driver);
 
 /// @param options  checked, with its name and groups

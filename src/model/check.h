@@ -22,7 +22,7 @@ struct Spot {
 /// Where a member lies.
 const void* address(const Slot& slot);
 
-/// Who is told of faults, and knows what the user calls a member: a place in a file, or a path in code.
+/// Receiver of faults, which knows what the user calls a member: a place in a file, or a path in code.
 class Complaints {
  public:
   virtual ~Complaints() = default;
@@ -49,7 +49,7 @@ class Complaints {
 /// Adds what is wrong with a struct and all below it.
 void check(const Table& table, const void* record, Complaints& complaints);
 
-/// The same for one that was set in code.
+/// Checks a struct that was set in code, and all below it.
 /// @param name   what the path of its members begins with; may be empty
 /// @throws Error (bad_input; limit for counts) naming the member
 void check_in_code(const Table& table, const void* record, const std::string& name);

@@ -32,24 +32,30 @@ const Table& table_of<Pattern>() {
   static const Table rows =
       table<Pattern>(
           kind<kind_of>("kind", {"cone", "lambertian", "cosine_lobe", "flat_top", "table"}),
-          number<&Pattern::half_angle_rad>("half_angle", half_angle, "uniform up to this angle to the axis")
+          number<&Pattern::half_angle_rad>("half_angle", half_angle, "half angle of the cone, within which it is uniform")
               .when<kind_of>(Kind::cone)
               .required(),
           number<&Pattern::exponent>("exponent", {none, {0, 1e4}, "4"}, "n of cos^n").when<kind_of>(Kind::cosine_lobe).required(),
           number<&Pattern::width_rad>("width", width, "full width across x at half the peak").when<kind_of>(Kind::flat_top).required(),
           number<&Pattern::height_rad>("height", width, "full width across y at half the peak").when<kind_of>(Kind::flat_top).required(),
-          number<&Pattern::columns>("columns", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
-          number<&Pattern::rows>("rows", cells, "cells of the table it stands for").when<kind_of>(Kind::flat_top).absent(),
-          number<&Pattern::half_range_x_rad>("half_range_x", half_range, "zero beyond +- this; the width unless given")
+          number<&Pattern::columns>("columns", cells, "columns of the grid that power_model paper_literal reads")
               .when<kind_of>(Kind::flat_top)
               .absent(),
-          number<&Pattern::half_range_y_rad>("half_range_y", half_range, "zero beyond +- this; the height unless given")
+          number<&Pattern::rows>("rows", cells, "rows of the grid that power_model paper_literal reads")
               .when<kind_of>(Kind::flat_top)
               .absent(),
-          also(number<&Pattern::half_range_x_rad>("half_range_x", half_range, "the table covers +- this across its columns")
+          number<&Pattern::half_range_x_rad>("half_range_x", half_range,
+                                             "half range across x, beyond which it is dark; the width unless given")
+              .when<kind_of>(Kind::flat_top)
+              .absent(),
+          number<&Pattern::half_range_y_rad>("half_range_y", half_range,
+                                             "half range across y, beyond which it is dark; the height unless given")
+              .when<kind_of>(Kind::flat_top)
+              .absent(),
+          also(number<&Pattern::half_range_x_rad>("half_range_x", half_range, "half range of the table across its columns")
                    .when<kind_of>(Kind::table)
                    .required()),
-          also(number<&Pattern::half_range_y_rad>("half_range_y", half_range, "the table covers +- this across its rows")
+          also(number<&Pattern::half_range_y_rad>("half_range_y", half_range, "half range of the table across its rows")
                    .when<kind_of>(Kind::table)
                    .required()),
           grid<&Pattern::samples, &Pattern::rows, &Pattern::columns>(
@@ -68,14 +74,15 @@ const Table& table_of<Waveform>() {
   static const Table rows =
       table<Waveform>(
           kind<kind_of>("kind", {"rectangular", "sine", "measured", "trapezoid", "gaussian", "emission"}),
-          number<&Waveform::duty>("duty", {fraction, {1e-3, 0.999}, "25 %"}, "width at half height over the period")
+          number<&Waveform::duty>("duty", {fraction, {1e-3, 0.999}, "25 %"}, "pulse width at half height over the period")
               .when<kind_of>(rectangular, trapezoid),
-          number<&Waveform::rise_time_s>("rise_time", edge, "linear edge, 0 to 100 %").when<kind_of>(rectangular, trapezoid),
-          number<&Waveform::fall_time_s>("fall_time", edge, "the edge at the pulse's end").when<kind_of>(trapezoid),
+          number<&Waveform::rise_time_s>("rise_time", edge, "rise time of a linear edge, 0 to 100 %").when<kind_of>(rectangular, trapezoid),
+          number<&Waveform::fall_time_s>("fall_time", edge, "fall time of the linear edge at the pulse's end").when<kind_of>(trapezoid),
           number<&Waveform::sigma_s>("sigma", {time, {0, 1e-3}, "1.5 ns"}, "width of the pulse, 1 sigma")
               .when<kind_of>(gaussian)
               .required(),
-          number<&Waveform::modulation_depth>("modulation_depth", {fraction, {1e-3, 1}, "90 %"}, "d of the light 1 + d cos")
+          number<&Waveform::modulation_depth>("modulation_depth", {fraction, {1e-3, 1}, "90 %"},
+                                              "modulation depth d of the light 1 + d cos")
               .when<kind_of>(sine),
           number<&Waveform::bandwidth_hz>("bandwidth", {frequency, {0, 1e12}, "200 MHz"}, "single pole of the light source; 0: none")
               .when<kind_of>(rectangular, sine, trapezoid, gaussian, emission),
@@ -90,10 +97,10 @@ const Table& table_of<Waveform>() {
               .when<kind_of>(emission)
               .or_file("emission.csv"),
           numbers<&Waveform::sample_phases_rad>("phases", {angle, {-100, 100}, "45 deg"}, 4, curve_points,
-                                                "where in the period the samples are, ascending; equally spaced from 0 unless given")
+                                                "phases of the samples, ascending; equally spaced from 0 unless given")
               .when<kind_of>(measured, emission)
               .absent(),
-          number<&Waveform::harmonics>("harmonics", {none, {1, 8}, "4"}, "how many odd harmonics are kept: 1, 3, 5, 7 …")
+          number<&Waveform::harmonics>("harmonics", {none, {1, 8}, "4"}, "number of odd harmonics that are kept: 1, 3, 5, 7 …")
               .when<kind_of>(rectangular, measured, trapezoid, gaussian, emission))
           .check_with(samples_carry_their_harmonics);
   return rows;
@@ -105,10 +112,13 @@ const Table& table_of<Area>() {
   constexpr auto kind_of = &Area::kind;
   static const Table rows = table<Area>(
       kind<kind_of>("kind", {"none", "disk", "rectangle"}),
-      number<&Area::radius_m>("radius", extent, "of the disk, across the axis").when<kind_of>(Kind::disk).required(),
-      number<&Area::width_m>("width", extent, "toward the camera's x; of an axis along x: its y").when<kind_of>(Kind::rectangle).required(),
-      number<&Area::height_m>("height", extent, "across that and the axis").when<kind_of>(Kind::rectangle).required(),
-      number<&Area::points>("points", {none, {1, most_lights}, "16"}, "that stand for it; each costs as much as a light source")
+      number<&Area::radius_m>("radius", extent, "radius of the disk, which lies across the axis").when<kind_of>(Kind::disk).required(),
+      number<&Area::width_m>("width", extent, "width along the camera's x; along its y where the axis is along x")
+          .when<kind_of>(Kind::rectangle)
+          .required(),
+      number<&Area::height_m>("height", extent, "height, across the width and the axis").when<kind_of>(Kind::rectangle).required(),
+      number<&Area::points>("points", {none, {1, most_lights}, "16"},
+                            "number of points that stand for the area; each costs as much as a light source")
           .when<kind_of>(Kind::disk, Kind::rectangle));
   return rows;
 }
@@ -116,18 +126,19 @@ const Table& table_of<Area>() {
 template <>
 const Table& table_of<Illumination>() {
   static const Table rows = table<Illumination>(
-      number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"},
-                                      "where the light source stands, in the camera's frame"),
-      number<&Illumination::axis>("axis", {none, {-1e6, 1e6}, "1"}, "which way it shines, in the camera's frame").direction(),
+      number<&Illumination::position>("position", {length, {-100, 100}, "15.47 mm"}, "position of the light source in the camera's frame"),
+      number<&Illumination::axis>("axis", {none, {-1e6, 1e6}, "1"}, "direction in which the light source shines, in the camera's frame")
+          .direction(),
       number<&Illumination::illumination_wavelength_m>("illumination_wavelength", {length, {300e-9, 2e-6}, "850 nm"},
                                                        "wavelength of the light source")
           .required(),
-      number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"}, "optical, of a lit raw frame, mean over the modulation period")
+      number<&Illumination::power_w>("power", {power, {0, 1e4}, "0.2 W"},
+                                     "optical power during a lit raw frame, mean over the modulation period")
           .required(),
       number<&Illumination::ring_leds>("ring_leds", {none, {1, most_lights}, "4"},
-                                       "so many sources on a circle about the position, across the axis"),
-      number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "radius of the circle that ring_leds stand on"),
-      record<&Illumination::area>("area", "a disk or rectangle across the axis, which shines evenly, in place of a point"),
+                                       "number of sources on a circle about the position, across the axis"),
+      number<&Illumination::ring_radius_m>("ring_radius", {length, {0, 10}, "20 mm"}, "radius of the circle of ring_leds"),
+      record<&Illumination::area>("area", "a disk or rectangle across the axis that shines evenly, in place of a point"),
       record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
       record<&Illumination::waveform>("waveform", "how the light is modulated").required());
   return rows;

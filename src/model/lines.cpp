@@ -53,12 +53,13 @@ class Lines {
  public:
   std::vector<Line> all;
 
-  /// @param note   the kind that the keys belong to, for their lines
-  void keys(const Form& form, const std::string& path, const std::string& note) {
+  /// @param kind   that the keys belong to, for their lines; may be empty
+  void keys(const Form& form, const std::string& path, const std::string& kind) {
+    const std::string note = kind.empty() ? "" : kind + ": ";
     for (const Key& key : form.keys) {
       const std::string here = path.empty() ? key.name : path + "." + key.name;
       const bool value = has_values(key.form) && (key.form.kind != Kind::list || has_values(key.form.forms[0]));
-      if (value) all.push_back({here, value_text(key.form), key.fallback, key.required, note + key.doc, key.member});
+      if (value) all.push_back({here, value_text(key.form), key.fallback, key.required, note + key.doc, key.member, kind});
       below(key.form, here, key);
     }
   }
@@ -79,7 +80,8 @@ class Lines {
         if (!has_values(form.forms[0])) below(form.forms[0], path + ".0", key);
         return;
       case Kind::dictionary:
-        if (form.forms[0].kind == Kind::either) all.push_back({path + ".NAME", value_text(form.forms[0]), {}, false, key.doc, key.member});
+        if (form.forms[0].kind == Kind::either)
+          all.push_back({path + ".NAME", value_text(form.forms[0]), {}, false, key.doc, key.member, {}});
         return below(form.forms[0], path + ".NAME", key);
       case Kind::tagged:
         all.push_back({path + "." + form.tag,
@@ -87,8 +89,9 @@ class Lines {
                        key.fallback.empty() ? form.default_tag : key.fallback,
                        false,
                        key.doc,
+                       {},
                        {}});
-        for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path, form.names[i] + ": ");
+        for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path, form.names[i]);
         return;
       case Kind::variant:
         for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path + "." + form.names[i], "");

@@ -16,6 +16,7 @@ struct Line {
   bool required = false;
   std::string doc;
   std::string member;  ///< in code: "Pixel::read_noise_e"
+  std::string kind;    ///< which kind of a thing the key belongs to, with which `doc` then begins: "gaussian: …"
 };
 
 /// All keys that have a value of their own, in the order of the tables.

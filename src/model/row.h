@@ -319,7 +319,7 @@ Rows<1> curve(const char* key, const Axis& x, const Axis& y, const char* doc, Co
   return curve_row(std::move(detail::row<M>(key, {}, doc).rows[0]), x, y, constant);
 }
 
-/// The same where positions and values are members of their own.
+/// A curve whose positions and values are members of their own.
 template <auto X, auto Y>
 Rows<2> curve_of_two(const char* key, const Axis& x, const Axis& y, const char* doc) {
   Row row = std::move(detail::row<X>(key, {}, doc).rows[0]);

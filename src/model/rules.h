@@ -11,9 +11,9 @@ void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
 void gains_are_those_of_the_adc(const Camera& camera, Complaints& complaints);
 void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints);
-/// … of lights and of pixels.
+/// The numbers of lights and of pixels are within the limits.
 void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints);
-/// The same, the dark current at the temperature, and the mode's gain.
+/// cameras_are_within_the_limits(), and the dark current at the temperature, and the mode's gain.
 void cameras_make_sense(const Camera& camera, Complaints& complaints);
 /// The region that is read lies on the sensor, and a binned pixel in it.
 void something_is_read(const Camera& camera, Complaints& complaints);
@@ -21,7 +21,7 @@ void something_is_read(const Camera& camera, Complaints& complaints);
 void exposures_fit(const Camera& camera, Complaints& complaints);
 /// Larger true phases are measured larger.
 void wiggling_stays_in_order(const FrequencyCalibration& frequency, Complaints& complaints);
-/// It has each modulation frequency of the mode once, and a phase for each pixel that is read out.
+/// A specimen's calibration has each modulation frequency of the mode once, and a phase for each pixel that is read out.
 void calibration_is_of_the_camera(const Camera& camera, Complaints& complaints);
 void masks_let_light_through(const PixelMask& mask, Complaints& complaints);
 void scatter_goes_somewhere(const Scatter& scatter, Complaints& complaints);

@@ -29,11 +29,12 @@ const Table& table_of<Material>() {
       table<Material>(
           words<&Material::name>("", "", "", ""),  // the key of the file's `materials`
           kind<brdf>("brdf", {"lambert", "phong", "oren_nayar", "ggx", "retro"}),
-          number<&Material::diffuse>("reflectivity", {fraction, share, "0.85"}, "share of the light that comes back, all of it diffuse")
+          number<&Material::diffuse>("reflectivity", {fraction, share, "0.85"},
+                                     "reflectivity: share of the light that is reflected, all of it diffusely")
               .when<brdf>(lambert, oren_nayar)
               .required(),
           also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d, the Lambertian share").when<brdf>(phong).required()),
-          also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d of the matt ground below the small mirrors; 0: a metal")
+          also(number<&Material::diffuse>("diffuse", {fraction, share, "0.4"}, "k_d, the diffuse share below the microfacets; 0: a metal")
                    .when<brdf>(ggx)),
           also(number<&Material::diffuse>("diffuse", {fraction, share, "0.05"}, "k_d, the Lambertian share").when<brdf>(retro)),
           number<&Material::specular>("specular", {fraction, share, "0.3"},
@@ -41,17 +42,17 @@ const Table& table_of<Material>() {
               .when<brdf>(phong)
               .required(),
           also(number<&Material::specular>("specular", {fraction, share, "0.04"},
-                                           "F_0, what each small mirror reflects at normal incidence: 0.04 of plastic, 0.9 of aluminium")
+                                           "F_0, reflectance of a microfacet at normal incidence: 0.04 for plastic, 0.9 for aluminium")
                    .when<brdf>(ggx)
                    .required()),
-          number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "n of the lobe's cos^n: the larger, the shinier")
+          number<&Material::exponent>("exponent", {none, phong_exponent, "20"}, "exponent n of the lobe's cos^n: the larger, the shinier")
               .when<brdf>(phong)
               .required(),
           number<&Material::roughness_rad>("roughness", {angle, {0, 0.5 * base::pi}, "20 deg"},
                                            "spread (1 sigma) of the slopes of the surface's facets; 0: Lambert")
               .when<brdf>(oren_nayar)
               .required(),
-          number<&Material::alpha>("alpha", {none, {1e-3, 1}, "0.3"}, "spread of the small mirrors' slopes: glTF's roughness, squared")
+          number<&Material::alpha>("alpha", {none, {1e-3, 1}, "0.3"}, "spread of the microfacets' slopes: glTF's roughness squared")
               .when<brdf>(ggx)
               .required(),
           number<&Material::retro>("retro", {fraction, share, "0.2"},
@@ -62,8 +63,8 @@ const Table& table_of<Material>() {
                                         "angle between light and camera at which half of the peak is left")
               .when<brdf>(retro)
               .required(),
-          no_row<&Material::map>("a picture out of a mesh's file"), no_row<&Material::normals>("likewise"),
-          no_row<&Material::finish>("likewise"), no_row<&Material::opacity>("likewise"))
+          no_row<&Material::map>("a picture out of a mesh's file"), no_row<&Material::normals>("a picture out of a mesh's file"),
+          no_row<&Material::finish>("a picture out of a mesh's file"), no_row<&Material::opacity>("a picture out of a mesh's file"))
           .check_with(materials_send_back_no_more_than_they_get)
           .kind_may_be_missing();
   return rows;
@@ -73,23 +74,23 @@ template <>
 const Table& table_of<Plane>() {
   static const Table rows =
       table<Plane>(number<&Plane::point>("point", coordinate, "a point of the plane [m]").required(),
-                   number<&Plane::normal>("normal", component, "any length but zero; both sides reflect").direction());
+                   number<&Plane::normal>("normal", component, "normal, of any length but zero; both sides reflect").direction());
   return rows;
 }
 
 template <>
 const Table& table_of<Sphere>() {
   static const Table rows =
-      table<Sphere>(number<&Sphere::center>("center", coordinate, "its centre [m]").required(),
-                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "its radius [m]").required());
+      table<Sphere>(number<&Sphere::center>("center", coordinate, "centre [m]").required(),
+                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "radius [m]").required());
   return rows;
 }
 
 template <>
 const Table& table_of<Box>() {
   static const Table rows =
-      table<Box>(number<&Box::min>("min", coordinate, "the corner of the smallest x, y and z, before the rotation [m]").required(),
-                 number<&Box::max>("max", coordinate, "the opposite corner [m]").required())
+      table<Box>(number<&Box::min>("min", coordinate, "corner with the smallest x, y and z, before the rotation [m]").required(),
+                 number<&Box::max>("max", coordinate, "opposite corner, before the rotation [m]").required())
           .check_with(boxes_are_thick);
   return rows;
 }
@@ -97,26 +98,26 @@ const Table& table_of<Box>() {
 /// In code, a triangle without an area is good: no ray hits it.
 template <>
 const Table& table_of<Triangle>() {
-  static const Table rows = table<Triangle>(number<&Triangle::vertices>("vertices", coordinate, "the three corners [m]").required());
+  static const Table rows = table<Triangle>(number<&Triangle::vertices>("vertices", coordinate, "three corners [m]").required());
   return rows;
 }
 
 template <>
 const Table& table_of<Cylinder>() {
-  static const Table rows =
-      table<Cylinder>(number<&Cylinder::center>("center", coordinate, "halfway between its caps [m]").required(),
-                      number<&Cylinder::axis>("axis", component, "from cap to cap; any length but zero").required().direction(),
-                      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "its radius [m]").required(),
-                      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "from cap to cap [m]").required());
+  static const Table rows = table<Cylinder>(
+      number<&Cylinder::center>("center", coordinate, "centre, halfway between the caps [m]").required(),
+      number<&Cylinder::axis>("axis", component, "axis from cap to cap, of any length but zero").required().direction(),
+      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "radius [m]").required(),
+      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "height, from cap to cap [m]").required());
   return rows;
 }
 
 template <>
 const Table& table_of<Rectangle>() {
   static const Table rows =
-      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "its centre [m]").required(),
+      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "centre [m]").required(),
                        number<&Rectangle::size>("size", {length, {base::shortest_m, 1e5}, "40 cm", true},
-                                                "its width and height, along x and y before the rotation; both sides reflect [m]")
+                                                "width and height, along x and y before the rotation; both sides reflect [m]")
                            .required());
   return rows;
 }
@@ -124,18 +125,18 @@ const Table& table_of<Rectangle>() {
 template <>
 const Table& table_of<Disk>() {
   static const Table rows =
-      table<Disk>(number<&Disk::center>("center", coordinate, "its centre [m]").required(),
-                  number<&Disk::normal>("normal", component, "any length but zero; both sides reflect").required().direction(),
-                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "its radius [m]").required());
+      table<Disk>(number<&Disk::center>("center", coordinate, "centre [m]").required(),
+                  number<&Disk::normal>("normal", component, "normal, of any length but zero; both sides reflect").required().direction(),
+                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "radius [m]").required());
   return rows;
 }
 
 template <>
 const Table& table_of<Capsule>() {
   static const Table rows =
-      table<Capsule>(number<&Capsule::start>("start", coordinate, "the middle of one of its round ends [m]").required(),
-                     number<&Capsule::end>("end", coordinate, "that of the other one, which is another point [m]").required(),
-                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "its radius [m]").required())
+      table<Capsule>(number<&Capsule::start>("start", coordinate, "centre of one of the round ends [m]").required(),
+                     number<&Capsule::end>("end", coordinate, "centre of the other round end, another point than start [m]").required(),
+                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "radius [m]").required())
           .check_with(capsules_have_a_length);
   return rows;
 }
@@ -143,10 +144,10 @@ const Table& table_of<Capsule>() {
 template <>
 const Table& table_of<Cone>() {
   static const Table rows =
-      table<Cone>(number<&Cone::base>("base", coordinate, "the middle of its base [m]").required(),
-                  number<&Cone::axis>("axis", component, "from the base to the tip; any length but zero").required().direction(),
-                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm"}, "of the base [m]").required(),
-                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm"}, "from base to tip [m]").required());
+      table<Cone>(number<&Cone::base>("base", coordinate, "centre of the base [m]").required(),
+                  number<&Cone::axis>("axis", component, "axis from the base to the tip, of any length but zero").required().direction(),
+                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm"}, "radius of the base [m]").required(),
+                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm"}, "height, from base to tip [m]").required());
   return rows;
 }
 
@@ -158,17 +159,17 @@ const Table& table_of<Mesh>() {
           words<&Mesh::file>("file", "a file", "chair.glb",
                              "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
               .required(),
-          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "of the file's numbers, to metres: 0.001 where they are mm"),
+          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "scale from the file's numbers to metres: 0.001 for a file in mm"),
           choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
                             "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
                             "none: the file's axes are the world's"),
           words<&Mesh::animation>("animation", "a name, a number or all", "all",
-                                  "which of a glTF file's animations `time` and `play` are of: its name, its number from 0 on, or all at "
+                                  "animation of a glTF file that `time` and `play` refer to: its name, its number from 0 on, or all at "
                                   "once; the first unless given"),
-          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"}, "of a glTF file's animation; as the file stands still unless given")
+          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"}, "time of a glTF file's animation; the file's rest pose unless given")
               .absent(),
           choice<&Mesh::play>("play", {"still", "once", "loop"},
-                              "whether a glTF file's animation goes on, from `time` (or its start) on: once, or again and again"),
+                              "whether a glTF file's animation plays, from `time` (or its start) on: once or repeatedly"),
           words<&Mesh::sha256>("", "", "", ""),  // the reader's
           no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles, &Mesh::motion>("what the file holds"))
           .check_with(meshes_have_triangles);
@@ -190,20 +191,21 @@ namespace {
 std::vector<Key> matrix_and_euler(int columns, const char* matrix) {
   const Form entry = form_of(component), turn = form_of(Number{angle, {-100, 100}, "30 deg"});
   std::vector<Key> angles;
-  for (const auto& [name, doc] : {std::pair{"roll", "about the fixed axis x, as rpy in URDF"},
-                                  {"pitch", "about the fixed axis y, after that"},
-                                  {"yaw", "about the fixed axis z, last"}}) {
+  for (const auto& [name, doc] : {std::pair{"roll", "rotation about the fixed axis x, as rpy in URDF"},
+                                  {"pitch", "rotation about the fixed axis y, after roll"},
+                                  {"yaw", "rotation about the fixed axis z, after pitch"}}) {
     angles.push_back(absent(name, turn, doc));
     angles.back().fallback = "0 deg";
   }
   return {absent("matrix", list(list(entry, 3, columns), 3, columns), matrix),
-          absent("euler", map(std::move(angles)), "turns about the fixed axes x, y and z, one after the other, as rpy in URDF")};
+          absent("euler", map(std::move(angles)), "rotations about the fixed axes x, y and z, one after the other, as rpy in URDF")};
 }
 
 std::vector<Key> axes_of_cameras() {
-  std::vector<Key> keys{absent("axes", choice({"optical", "body", "opengl"}),
-                               "of what quaternion, matrix and euler turn: optical: x right, y down, z forward; body (ROS): x forward, y "
-                               "left, z up; opengl (Blender): x right, y up, z backward")};
+  std::vector<Key> keys{
+      absent("axes", choice({"optical", "body", "opengl"}),
+             "axes of the frame that quaternion, matrix and euler rotate: optical: x right, y down, z forward; body (ROS): "
+             "x forward, y left, z up; opengl (Blender): x right, y up, z backward")};
   keys.back().fallback = "optical";
   return keys;
 }
@@ -211,8 +213,8 @@ std::vector<Key> axes_of_cameras() {
 /// Poses at times out of a file.
 Form keyframe_file(std::vector<Key> more) {
   std::vector<Key> keys{required("file", text("a file", "poses.csv"),
-                                 "a pose a line, t x y z qx qy qz qw or what its header says, beside the scene or below"),
-                        absent("time_unit", choice({"s", "ms", "us", "ns"}), "of its times; what its header says, else s"),
+                                 "file with a pose per line, t x y z qx qy qz qw or as its header says, beside the scene or below"),
+                        absent("time_unit", choice({"s", "ms", "us", "ns"}), "unit of the file's times; as its header says, else s"),
                         absent("time_zero", form_of(Number{time, {-1e12, 1e12}, "0 s"}),
                                "the file's time at which the scene's is 0; 0 s, but where its times are of a clock (beyond 1e6 s) the "
                                "first one of the scene's first such file, the camera's before those of objects")};
@@ -226,10 +228,10 @@ template <>
 const Table& table_of<Rotation>() {
   static const Table rows =
       table<Rotation>(
-          number<&Rotation::axis>("axis", component, "the axis, by the right-hand rule; any length but zero").absent(),
-          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "by how much it turns about axis").absent(),
-          number<&Rotation::quaternion>("quaternion", component, "x, y, z, w, of length 1").absent().in_place_of({"axis", "angle_rad"}))
-          .and_keys(matrix_and_euler(3, "three rows of three: its columns are where x, y and z turn to"))
+          number<&Rotation::axis>("axis", component, "axis of the rotation, by the right-hand rule, of any length but zero").absent(),
+          number<&Rotation::angle_rad>("angle", {angle, {-100, 100}, "30 deg"}, "angle of the rotation about axis").absent(),
+          number<&Rotation::quaternion>("quaternion", component, "unit quaternion x, y, z, w").absent().in_place_of({"axis", "angle_rad"}))
+          .and_keys(matrix_and_euler(3, "three rows of three numbers, whose columns are the images of x, y and z"))
           .with_exactly_one({"axis", "quaternion", "matrix", "euler"})
           .with_meant({{"orientation", "quaternion"}, {"rpy", "euler"}})
           .check_with(turns_have_an_axis);
@@ -243,9 +245,10 @@ constexpr auto most_keyframes = static_cast<int>(base::limit::keyframes.value);
 
 template <>
 const Table& table_of<Keyframe>() {
-  static const Table rows = table<Keyframe>(number<&Keyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
-                                            number<&Keyframe::position>("position", coordinate, "by how much it is shifted [m]"),
-                                            record<&Keyframe::rotation>("rotation", "a turn about the object's own centre"));
+  static const Table rows =
+      table<Keyframe>(number<&Keyframe::time_s>("time", moment, "time of the keyframe; frame i starts at i / frame rate").required(),
+                      number<&Keyframe::position>("position", coordinate, "shift of the object [m]"),
+                      record<&Keyframe::rotation>("rotation", "rotation about the object's own centre"));
   return rows;
 }
 
@@ -253,20 +256,19 @@ template <>
 const Table& table_of<Object>() {
   static const Table rows =
       table<Object>(
-          words<&Object::name>("name", "a name", "ball", "how listings call the object").absent(),
+          words<&Object::name>("name", "a name", "ball", "name of the object in listings").absent(),
           // the key of the file's entry
           one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
           number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
-          number<&Object::position>("position", coordinate, "by how much it is shifted [m]"),
-          record<&Object::rotation>("rotation", "a turn about the object's own centre (of a plane: about its point)"),
-          number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "how fast it moves [m/s]"),
+          number<&Object::position>("position", coordinate, "shift of the object [m]"),
+          record<&Object::rotation>("rotation", "rotation about the object's own centre (of a plane: about its point)"),
+          number<&Object::velocity_m_per_s>("velocity", {speed, {-1e4, 1e4}, "1 m/s", true}, "velocity of the object [m/s]"),
           number<&Object::angular_velocity_rad_per_s>("angular_velocity", {angular_speed, {-1e4, 1e4}, "90 deg/s"},
-                                                      "the axis of a steady turn about the object's own centre, times how fast it turns"),
-          records<&Object::keyframes>(
-              "keyframes", 0, most_keyframes,
-              "where it is when, in place of `position`, `rotation` and both velocities; it moves evenly between two")
+                                                      "angular velocity about the object's own centre: axis times rate"),
+          records<&Object::keyframes>("keyframes", 0, most_keyframes,
+                                      "poses at times, in place of `position`, `rotation` and both velocities; motion between two is even")
               .or_else(keyframe_file({})),
-          words<&Object::class_name>("class", "a name", "chair", "what kind of thing it is, for gt_class_id; see the scene's `classes`")
+          words<&Object::class_name>("class", "a name", "chair", "class of the object, for gt_class_id; see the scene's `classes`")
               .in_meta_if_set(),
           no_row<&Object::key, &Object::where>("where the file says it"))
           .check_with(objects_move_one_way);
@@ -280,25 +282,26 @@ const Table& table_of<Ambient>() {
   static const Table rows =
       table<Ambient>(
           choice<&Ambient::spectrum>("spectrum", {"none", "sun_am15", "equal_energy", "table"},
-                                     "the light's spectrum: a built-in name, or a table; sun_am15 unless given")
+                                     "spectrum of the light: a built-in name, or a table; sun_am15 unless given")
               .absent(),
           curve_of_two<&Ambient::table_wavelength_m, &Ambient::table_irradiance_w_per_m3>(
               "spectrum", {"wavelength", {length, {100e-9, 20e-6}, "850 nm"}},
-              {"irradiance", {spectral_irradiance, {0, 1e13}, "0.9 W/(m2 nm)"}}, "on the surfaces")
+              {"irradiance", {spectral_irradiance, {0, 1e13}, "0.9 W/(m2 nm)"}}, "spectral irradiance on the surfaces")
               .when<&Ambient::spectrum>(Ambient::Spectrum::table),
           choice<quantity>("", {"level", "illuminance_lx", "band_irradiance_w_per_m2"}, ""),  // the key of the amount says it
-          number<&Ambient::amount>("level", {fraction, {0, 100}, "5 %"}, "share of the spectrum as it is tabulated (sun_am15: of full sun)")
+          number<&Ambient::amount>("level", {fraction, {0, 100}, "5 %"}, "share of the tabulated spectrum (sun_am15: of full sun)")
               .when<quantity>(level)
               .absent(),
-          also(number<&Ambient::amount>("illuminance", {illuminance, {0, 1e7}, "5 klx"}, "on the surfaces, as a light meter reads it")
+          also(number<&Ambient::amount>("illuminance", {illuminance, {0, 1e7}, "5 klx"},
+                                        "illuminance of the surfaces, as a light meter reads it")
                    .when<quantity>(illuminance_lx)
                    .absent()),
-          also(
-              number<&Ambient::amount>("band_irradiance", {irradiance, {0, 1e5}, "0.4 W/m2"}, "on the surfaces, within the camera's filter")
-                  .when<quantity>(band_irradiance_w_per_m2)
-                  .absent()),
+          also(number<&Ambient::amount>("band_irradiance", {irradiance, {0, 1e5}, "0.4 W/m2"},
+                                        "irradiance of the surfaces within the camera's filter")
+                   .when<quantity>(band_irradiance_w_per_m2)
+                   .absent()),
           number<&Ambient::direction>("direction", component,
-                                      "in which the light travels (a sun with shadows); from everywhere unless given")
+                                      "direction in which the light travels (a sun with shadows); uniform from everywhere unless given")
               .direction()
               .absent())
           .complete_with(light_is_the_suns);
@@ -309,14 +312,15 @@ template <>
 const Table& table_of<Pose>() {
   static const Table rows = [] {
     std::vector<Key> more = matrix_and_euler(
-        4, "from the camera's frame to the world's, as rows: 3 x 3, or 3 x 4 or 4 x 4 with the position in the last column [m]");
+        4, "matrix from the camera's frame to the world's, by rows: 3 x 3, or 3 x 4 or 4 x 4 with the position in the last column [m]");
     for (Key& key : axes_of_cameras()) more.push_back(std::move(key));
-    return table<Pose>(number<&Pose::position>("position", coordinate, "of the entrance pupil [m]"),
-                       number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis; [1, 0, 0] where `world_up` is z [m]"),
-                       number<&Pose::up>("up", component, "the world's direction that is up in the image; that of `world_up`").direction(),
-                       number<&Pose::quaternion>("quaternion", component, "x, y, z, w, from the camera's frame to the world's, of length 1")
-                           .absent()
-                           .in_place_of({"look_at", "up"}))
+    return table<Pose>(
+               number<&Pose::position>("position", coordinate, "position of the entrance pupil [m]"),
+               number<&Pose::look_at>("look_at", coordinate, "a point on the optical axis; [1, 0, 0] where `world_up` is z [m]"),
+               number<&Pose::up>("up", component, "world direction that is up in the image; that of `world_up` unless given").direction(),
+               number<&Pose::quaternion>("quaternion", component, "unit quaternion x, y, z, w from the camera's frame to the world's")
+                   .absent()
+                   .in_place_of({"look_at", "up"}))
         .and_keys(std::move(more))
         .with_at_most_one({"look_at", "quaternion", "matrix", "euler"})
         .with_meant({{"frame", "axes"},
@@ -338,9 +342,9 @@ Form mount_form() {
   std::erase_if(form.keys, [](const Key& key) { return key.name == "look_at" || key.name == "up"; });
   std::erase(form.at_most_one, "look_at");
   for (Key& key : form.keys) {
-    if (key.name == "position") key.doc = "of the entrance pupil, in the robot's frame [m]";
-    if (key.name == "quaternion") key.doc = "x, y, z, w, from the camera's frame to the robot's, of length 1";
-    if (key.name == "matrix") key.doc = "from the camera's frame to the robot's, as rows, as at `pose`";
+    if (key.name == "position") key.doc = "position of the entrance pupil in the robot's frame [m]";
+    if (key.name == "quaternion") key.doc = "unit quaternion x, y, z, w from the camera's frame to the robot's";
+    if (key.name == "matrix") key.doc = "matrix from the camera's frame to the robot's, by rows, as at `pose`";
     key.member.clear();
   }
   return form;
@@ -349,9 +353,9 @@ Form mount_form() {
 
 template <>
 const Table& table_of<CameraKeyframe>() {
-  static const Table rows =
-      table<CameraKeyframe>(number<&CameraKeyframe::time_s>("time", moment, "when; frame i starts at i / frame rate").required(),
-                            record<&CameraKeyframe::pose>("pose", "where the camera stands then"));
+  static const Table rows = table<CameraKeyframe>(
+      number<&CameraKeyframe::time_s>("time", moment, "time of the keyframe; frame i starts at i / frame rate").required(),
+      record<&CameraKeyframe::pose>("pose", "pose of the camera at that time"));
   return rows;
 }
 
@@ -364,15 +368,14 @@ const Table& table_of<CameraChoice>() {
           words<&CameraChoice::mode>("mode", "a mode of the camera", "MODE_9_5FPS_2000",
                                      "one of the profile's modes; its first unless given")
               .absent(),
-          record<&CameraChoice::pose>("pose", "where the camera stands; the world is the camera's frame unless given"),
+          record<&CameraChoice::pose>("pose", "pose of the camera; the world's frame is the camera's unless given"),
           records<&CameraChoice::keyframes>("keyframes", 0, most_keyframes,
-                                            "where it stands when, in place of `pose`; it moves evenly between two")
+                                            "poses of the camera at times, in place of `pose`; motion between two is even")
               .or_else(keyframe_file([] {
                 std::vector<Key> more = axes_of_cameras();
-                more[0].doc = "of what moves by the file: as at `pose`";
-                more.push_back(
-                    absent("mount", mount_form(),
-                           "where the camera is on what moves by the file (its frame to the robot's), if they are not the same"));
+                more[0].doc = "axes of the frame that the file's poses move: as at `pose`";
+                more.push_back(absent("mount", mount_form(),
+                                      "pose of the camera on what the file's poses move (its frame to the robot's), if they differ"));
                 return more;
               }())),
           no_row<&CameraChoice::overrides>("keys of the profile among the section's own"),
@@ -383,10 +386,11 @@ const Table& table_of<CameraChoice>() {
 
 template <>
 const Table& table_of<TransientBins>() {
-  static const Table rows = table<TransientBins>(
-      number<&TransientBins::bins>("bins", {none, {0, 1e6}, "2000"}, "how many; 0: there are no histograms").required(),
-      number<&TransientBins::first_m>("first", {length, {0, 1e6}, "2 m"}, "where the first bin begins: whole length from light to camera"),
-      number<&TransientBins::width_m>("width", {length, {1e-6, 1e6}, "1 mm"}, "how long a path a bin holds"));
+  static const Table rows =
+      table<TransientBins>(number<&TransientBins::bins>("bins", {none, {0, 1e6}, "2000"}, "number of bins; 0: no histograms").required(),
+                           number<&TransientBins::first_m>("first", {length, {0, 1e6}, "2 m"},
+                                                           "path length at which the first bin begins, all the way from light to camera"),
+                           number<&TransientBins::width_m>("width", {length, {1e-6, 1e6}, "1 mm"}, "width of a bin in path length"));
   return rows;
 }
 
@@ -394,18 +398,20 @@ template <>
 const Table& table_of<Transport>() {
   static const Table rows =
       table<Transport>(
-          number<&Transport::bounces>("bounces", {none, {0, 64}, "4"}, "surfaces that light meets beyond the first one, at most"),
+          number<&Transport::bounces>("bounces", {none, {0, 64}, "4"},
+                                      "maximum number of bounces: surfaces that light meets beyond the first one"),
           number<&Transport::samples>("samples", {none, {1, 65536}, "16"},
-                                      "ways of light that are followed for each pixel, where bounces is not 0; of max_samples the first"),
-          number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"}, "another one: other ways, the same light"),
+                                      "light paths per pixel (Monte Carlo samples), where bounces is not 0; the first ones of max_samples"),
+          number<&Transport::seed>("seed", {none, {0, 9007199254740991.0}, "0"},
+                                   "seed of the light paths: another one draws other paths of the same light"),
           number<&Transport::max_samples>(
               "max_samples", {none, {0, 65536}, "1024"},
-              "twice as many again and again, pixel by pixel, up to these, until path_noise is reached; 0: samples"),
+              "most light paths per pixel: their number is doubled, pixel by pixel, until path_noise is reached; 0: samples"),
           number<&Transport::path_noise_m>(
               "path_noise", {length, {0, 100}, "2 mm"},
-              "standard error of the half path at which a pixel has ways enough; 0: a fifth of its depth noise"),
-          flag<&Transport::smooth>("smooth", "light that bounces is smoothed over neighbours that see the same surface"),
-          record<&Transport::transient>("transient", "light by the length of its path, as a histogram for each pixel; none unless given"))
+              "standard error of the half path at which a pixel has enough paths; 0: a fifth of its depth noise"),
+          flag<&Transport::smooth>("smooth", "whether light that bounces is smoothed over neighbours that see the same surface"),
+          record<&Transport::transient>("transient", "histograms of light by path length for each pixel; none unless given"))
           .check_with(paths_have_an_aim);
   return rows;
 }
@@ -413,19 +419,20 @@ const Table& table_of<Transport>() {
 template <>
 const Table& table_of<Scene>() {
   static const Table rows =
-      table<Scene>(words<&Scene::name>("", "", "", ""),  // the file's
-                   no_row<&Scene::source>("a file's place is no part of what it says"),
-                   choice<&Scene::world_up>("world_up", {"-y", "y", "z"},
-                                            "the world's axis that is up: where a camera looks and what is up in its image unless its pose "
-                                            "says it, how meshes are turned; z in the worlds of ROS and Blender")
-                       .in_meta_if_set(),
-                   record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
-                   record<&Scene::ambient>("ambient", "light that is not the camera's own; none unless given").since(Stage::power),
-                   record<&Scene::transport>("transport", "light that goes on from surface to surface; straight back unless given")
-                       .since(Stage::power),
-                   records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
-                   records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"),
-                   no_row<&Scene::classes>("a list of words: the reader's"))
+      table<Scene>(
+          words<&Scene::name>("", "", "", ""),  // the file's
+          no_row<&Scene::source>("a file's place is no part of what it says"),
+          choice<&Scene::world_up>("world_up", {"-y", "y", "z"},
+                                   "the world's axis that is up: it decides where a camera looks and what is up in its image unless its "
+                                   "pose says so, and how meshes are turned; z in the worlds of ROS and Blender")
+              .in_meta_if_set(),
+          record<&Scene::camera>("camera", "which camera, where it stands, and what to change in its profile").not_in_meta(),
+          record<&Scene::ambient>("ambient", "ambient light; none unless given").since(Stage::power),
+          record<&Scene::transport>("transport", "multipath: light that bounces from surface to surface; none unless given")
+              .since(Stage::power),
+          records<&Scene::materials>("", 0, most_materials + most_objects, ""),  // by name, and those of objects
+          records<&Scene::objects>("", 0, most_objects, ""), no_row<&Scene::files>("what the reader met"),
+          no_row<&Scene::classes>("a list of words: the reader's"))
           .check_with(objects_fit_their_scene);
   return rows;
 }
@@ -441,12 +448,13 @@ Form objects_form() {
   const Slot shapes = slot_of(shape, object.fresh);
   for (const auto& table : std::get<VariantSlot>(shapes).tables) {
     Form one = form_of(table());
-    one.keys.push_back(absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "of a Lambertian surface, in place of `material`"));
+    one.keys.push_back(
+        absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "reflectivity of a Lambertian surface, in place of `material`"));
     one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),
                               "a name out of `materials` or of `tofray list materials`, or a material written here"));
     if (table == &table_of<Mesh>)
       one.keys.push_back(absent("materials", dictionary(one.keys.back().form, 1, most_materials),
-                                "in place of a material of the glTF or OBJ file: by its name there, as `material` says one"));
+                                "materials in place of those of the glTF or OBJ file, by their names there"));
     for (Key& key : keys_of(object)) one.keys.push_back(std::move(key));
     // A glTF file has materials of its own; the reader asks for one where a file has none.
     if (table == &table_of<Mesh>)
@@ -502,8 +510,8 @@ const FileForm& scene_form() {
                                     "materials by name, at the illumination wavelength"));
     file.root.keys.push_back(required("objects", objects_form(), "what the camera looks at"));
     file.root.keys.push_back(absent("classes", list(text("a name", "chair"), 1, most_objects),
-                                    "classes of objects in the order in which gt_class_id counts them; unless given, those that objects "
-                                    "have, by the order of their letters"));
+                                    "classes of objects in the order in which gt_class_id counts them; unless given, those of the objects "
+                                    "in alphabetical order"));
     file.root.meant = words_that_people_try();
     return file;
   }();

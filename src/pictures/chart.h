@@ -32,7 +32,7 @@ Rgb curve_color(std::size_t number);
 
 std::string chart_png(const Chart& chart);
 
-/// The same as SVG 1.1 text: no script, no external reference, no font file.
+/// A chart as SVG 1.1 text: no script, no external reference, no font file.
 std::string chart_svg(const Chart& chart);
 
 }  // namespace tofray::pictures

@@ -10,7 +10,7 @@ using flow::Pixels;
 
 /// What is known of a pixel where neighbours are compared.
 template <class F>
-struct Guide {
+struct SurfaceGuide {
   F x, y, z;     ///< [m]
   F nx, ny, nz;  ///< 0: the pixel sees nothing
   F reflectivity;
@@ -51,7 +51,7 @@ TOFRAY_FN num::Mask<F> is_within(const InRow& at, int dx) {
 }
 
 template <class F>
-TOFRAY_FN Guide<F> guide_near(const flow::LightImage& image, const InRow& at, int dx, int dy) {
+TOFRAY_FN SurfaceGuide<F> guide_near(const flow::LightImage& image, const InRow& at, int dx, int dy) {
   const std::int64_t pixels = std::int64_t{at.width} * at.height;
   const auto load = [&](int i) __attribute__((always_inline)) { return load_near<F>(image.guide + i * pixels, at, dx, dy); };
   return {load(0), load(1), load(2), load(3), load(4), load(5), load(6)};
@@ -62,7 +62,7 @@ constexpr float most_off_plane = 0.02f;  ///< of the distance to the camera, tha
 
 /// How much a neighbour sees the same: 1 of the same plane, 0 of another surface.
 template <class F>
-TOFRAY_FN F likeness(const Guide<F>& here, const Guide<F>& there) {
+TOFRAY_FN F similarity(const SurfaceGuide<F>& here, const SurfaceGuide<F>& there) {
   const F cosine = num::fma(here.nx, there.nx, num::fma(here.ny, there.ny, here.nz * there.nz));
   const F off = num::fma(here.nx, there.x - here.x, num::fma(here.ny, there.y - here.y, here.nz * (there.z - here.z)));
   const F most = F(most_off_plane * most_off_plane) * flow::square_of(here.x, here.y, here.z);

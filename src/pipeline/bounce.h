@@ -17,9 +17,9 @@
 /// direct light, which light_up.h knows without chance.
 namespace tofray::pipeline {
 
-/// From which surface on chance decides whether a path goes on.
+/// First bounce with Russian roulette.
 constexpr int first_roulette = 3;
-/// … once less than this is left of its light, so that the weights of those that go on do not fall below it.
+/// Share of a path's light below which roulette begins: the weights of paths that go on do not fall below it.
 constexpr float least_left = 0.25f;
 /// Paths whose light is summed before it is added to that of others: a sum of some thousand floats would lose digits.
 constexpr int paths_together = 64;
@@ -69,7 +69,7 @@ TOFRAY_FN Vertex<F> first_vertex(const Setup& s, int moment, const flow::Ray<F>&
 
 /// Three numbers of a path for one of its surfaces: two say along which way it goes on, one whether it does.
 ///
-/// Those of a pixel's two halves of paths know nothing of each other, so that how far they are apart says how well their mean is known.
+/// Random numbers of a pixel's two halves of paths are independent, so that the halves' difference says how well their mean is known.
 template <class F>
 struct Choice {
   F u, v, chance;

@@ -113,7 +113,7 @@ TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::W
   }
 }
 
-/// … or summed already: of each light the power, and Σ power·e^{imφ}.
+/// Light of arrays that is summed already: of each light the power, and Σ power·e^{imφ}.
 template <class F>
 TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
                              flow::Light<F>& light, F& power) {
@@ -155,9 +155,9 @@ TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::Lig
 
 /// Pixels with arrays from elsewhere, for stages 2 to 4, or 3 and 4.
 template <class F>
-class GivenWalk {
+class ArraySource {
  public:
-  TOFRAY_FN GivenWalk(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
+  TOFRAY_FN ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
 
   TOFRAY_FN int moments() const { return in_.moments; }
   TOFRAY_FN int packs() const { return 1; }
@@ -256,7 +256,7 @@ TOFRAY_FN void enter(const Setup& s, const Job& job, const Input& in, const Pixe
     decode_pixels<F>(s, job, in.recording, p);
     return;
   }
-  GivenWalk<F> walk(s, job, in, p);
+  ArraySource<F> walk(s, job, in, p);
   run_pipeline<F>(s, job, walk);
 }
 

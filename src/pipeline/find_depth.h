@@ -21,7 +21,7 @@ TOFRAY_FN num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
   return (Int(r.left) > x) | (x > Int(r.left + r.width - 1));
 }
 
-/// Whether anybody wants to know what each modulation frequency says.
+/// Whether values by modulation frequency are wanted.
 TOFRAY_FN bool wants_frequencies(const flow::FrameView& out) {
   return out.amplitude_by_frequency_e != nullptr || out.range_by_frequency_m != nullptr || out.cycle_by_frequency != nullptr;
 }

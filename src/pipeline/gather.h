@@ -93,7 +93,7 @@ TOFRAY_FN void load_light(const Setup& s, const float* values, const Pixels& p, 
   const int j = times > 1 ? s.sensor.frame[time].modulation : 0;
   power::add_up(s.phasors, power::Wanted{j, j + kept_modulations(s, times)}, light);
 }
-/// … that reaches the pixels.
+/// Reads the light that reaches the pixels at a time.
 template <class F>
 TOFRAY_FN void load_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, flow::Light<F>& light) {
   load_light(s, image.scattered != nullptr ? image.scattered : image.values, p, image.times, time, light);

@@ -38,13 +38,13 @@ TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturb
   return frame.lit != 0 ? power::Wanted{frame.modulation, frame.modulation + 1} : power::Wanted{0, 0};
 }
 
-/// Stage 1: the nearest surface, of what stands still.
+/// Stage 1: the nearest surface of all that stands still.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
   return trace::nearest(near.still_from_camera(s), ray, flow::no_hit<F>());
 }
 
-/// … and of what moves, at the time of one raw frame.
+/// Stage 1: the nearest surface, of what stands still and of what moves at the time of one raw frame.
 template <class F, class Near>
 TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int moment, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
   return trace::nearest(near.moving_from_camera(s, moment), ray, still);
@@ -197,7 +197,7 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
     const flow::Ray<F> ray_copy = ray;
     const flow::Hit<F> hit_copy = hit;
     const flow::Surface<F> copy = surface;
-    look_closer(s, job.out, p, ray_copy, hit_copy, copy);
+    store_surface_truth(s, job.out, p, ray_copy, hit_copy, copy);
   }
   return true;
 }

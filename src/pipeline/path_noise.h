@@ -45,7 +45,7 @@ constexpr float share_of_depth_noise = 0.2f;
 ///
 /// Of what chance does to the light of a pixel, material and direct light change no more than this.
 template <class F>
-TOFRAY_FN void pooled_errors(const Setup& s, const flow::LightImage& image, const InRow& at, const Guide<F>& here, F* pooled) {
+TOFRAY_FN void pooled_errors(const Setup& s, const flow::LightImage& image, const InRow& at, const SurfaceGuide<F>& here, F* pooled) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   const int modulations = s.decoder.modulations;
   F squares = F(0.0f);
@@ -53,8 +53,8 @@ TOFRAY_FN void pooled_errors(const Setup& s, const flow::LightImage& image, cons
   for (int dy = -pooled_radius; dy <= pooled_radius; ++dy) {
     if (at.y + dy < 0 || at.y + dy >= at.height) continue;
     for (int dx = -pooled_radius; dx <= pooled_radius; ++dx) {
-      const Guide<F> there = guide_near<F>(image, at, dx, dy);
-      const num::Mask<F> like = is_within<F>(at, dx) & (likeness(here, there) > F(0.0f));
+      const SurfaceGuide<F> there = guide_near<F>(image, at, dx, dy);
+      const num::Mask<F> like = is_within<F>(at, dx) & (similarity(here, there) > F(0.0f));
       squares = squares + num::select(like, there.reflectivity * there.reflectivity, F(0.0f));
       for (int j = 0; j < modulations; ++j)
         pooled[j] = pooled[j] + num::select(like, load_near<F>(image.error + j * pixels, at, dx, dy), F(0.0f));
@@ -69,10 +69,10 @@ TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, i
   F all[flow::max_raw_frames], pooled[flow::max_modulation_frequencies];
   expected_differences(s, image, p, all);
   const InRow at = in_row(s, p);
-  const Guide<F> here = guide_near<F>(image, at, 0, 0);
+  const SurfaceGuide<F> here = guide_near<F>(image, at, 0, 0);
   pooled_errors(s, image, at, here, pooled);
   const num::Int<F> paths = paths_known<F>(s, image, round, p);
-  // What a pixel stopped by is what is said of it: with neighbours that went on it would be another guess, which nobody asked for.
+  // What a pixel stopped by is what is said of it: with neighbours that went on it would be another guess, which was not asked for.
   const num::Mask<F> goes_on = takes_part<F>(s, image, round, p);
   const auto ambient = [&](const float* values) __attribute__((always_inline)) {
     return num::load<F>(values + light_place(s, p, image.times, image.times / 2, 1), p.count);

@@ -53,7 +53,7 @@ TOFRAY_FN bool has_light_image(const Setup& s, Stage entry) {
   if (entry == Stage::depth) return false;
   return s.scatter.terms > 0 || ((s.subpixel.lens != nullptr || bounces(s, entry)) && entry == Stage::trace);
 }
-/// … and whether anybody wants to know what samples see that the middle of a pixel does not.
+/// Whether arrays are wanted of what samples see that the middle of a pixel does not.
 TOFRAY_FN bool wants_mixed(const Setup& s, const flow::FrameView& out) {
   return s.subpixel.lens != nullptr && out.gt_object_id != nullptr && (out.gt_mixed != nullptr || out.gt_object_share != nullptr);
 }
@@ -62,11 +62,11 @@ TOFRAY_FN bool wants_truth(const flow::FrameView& out) {
   return false TOFRAY_TRUTH_ARRAYS(TOFRAY_OR);
 #undef TOFRAY_OR
 }
-/// Whether anybody wants to know how well light that bounces is known, …
+/// Whether the Monte Carlo error of light that bounces is wanted.
 TOFRAY_FN bool wants_path_noise(const Setup& s, const flow::FrameView& out, Stage entry) {
   return bounces(s, entry) && (out.gt_path_noise_m != nullptr || s.bounces.rounds > 1);
 }
-/// … and what a pixel's neighbours see.
+/// Whether what a pixel's neighbours see is wanted.
 TOFRAY_FN bool wants_guide(const Setup& s, const flow::FrameView& out, Stage entry) {
   return wants_path_noise(s, out, entry) || (bounces(s, entry) && s.bounces.smooth != 0);
 }
@@ -85,13 +85,13 @@ TOFRAY_FN Input from_light_image(const flow::LightImage& image) {
   return out;
 }
 
-/// Puts what a step has of its own into the settings of its frame: of passes over images …
+/// Puts what a step over images has of its own into the settings of its frame.
 TOFRAY_FN void take_image_step(const Step& step, Job& job) {
   step.light.all.place(job.light.values, job.light.before);
   step.light.indirect.place(job.light.indirect, job.light.indirect_before);
   if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, nullptr};
 }
-/// … and of the pass that begins with rays.
+/// Puts what any step has of its own into the settings of its frame, those of the pass that begins with rays included.
 TOFRAY_FN void take_step(const Step& step, Setup& s, Job& job) {
   take_image_step(step, job);
   if (step.part == Part::truth && s.last_stage > Stage::power) s.last_stage = Stage::power;

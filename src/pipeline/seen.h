@@ -111,16 +111,16 @@ TOFRAY_FN void store_seen(const flow::FrameView& out, const Pixels& p, const See
   store2(out.gt_flow_px, p, seen.flow_u, seen.flow_v);
 }
 
-/// Whether anybody wants any of it.
+/// Whether any array of truth is wanted that this file stores.
 TOFRAY_FN bool wants_seen(const flow::FrameView& out) {
   return out.gt_class_id != nullptr || out.gt_triangle_id != nullptr || out.gt_texcoord != nullptr || out.gt_velocity_m_per_s != nullptr ||
          out.gt_flow_px != nullptr;
 }
 
-/// Finds and stores it.
+/// Finds what arrays of truth say of the surface that a pixel sees, and stores it.
 template <class F>
-TOFRAY_APART void look_closer(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, const flow::Hit<F>& hit,
-                              const flow::Surface<F>& surface) {
+TOFRAY_APART void store_surface_truth(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray,
+                                      const flow::Hit<F>& hit, const flow::Surface<F>& surface) {
   Seen<F> seen = nothing_known<F>();
   const num::Int<F> none(-1), object = num::select(surface.found, surface.object, num::Int<F>(0));
   seen.class_number = num::select(surface.found, num::gather(s.scene.class_of, object), none);

@@ -62,7 +62,7 @@ struct Gather {
   std::int32_t on;
   std::int32_t first;          ///< nothing was added before
   float share;                 ///< of the light that is found
-  const std::int32_t* middle;  ///< [height][width] object that the middle of each pixel sees, or null: nobody asks
+  const std::int32_t* middle;  ///< [height][width] object that the middle of each pixel sees, or null: not asked for
   bool operator==(const Gather&) const = default;
 };
 
@@ -70,7 +70,7 @@ struct Gather {
 enum class TapStores : std::int32_t {
   some,         ///< where there is a place for them
   all,          ///< there are places for all three
-  past_caches,  ///< … past the caches, which these places allow
+  past_caches,  ///< there are places for all three, and they allow stores past the caches
 };
 
 /// One frame: where its arrays are and its place in the random numbers.
@@ -97,7 +97,7 @@ using flow::tile_width;
 
 /// What the wells of each pixel had no room for [e⁻].
 TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.scratch + 2 * s.lens.width * s.lens.height; }
-/// How many images `scratch` has room for, …
+/// Number of images that `scratch` has room for.
 TOFRAY_FN int scratch_images(const Setup& s, Filter filter) {
   const int before = s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0;
   return before + (filter != Filter::none ? 1 : 0);
@@ -106,7 +106,7 @@ TOFRAY_FN int scratch_images(const Setup& s, Filter filter) {
 TOFRAY_FN float* trust_in(const Setup& s, const Job& job) {
   return job.scratch + (scratch_images(s, job.filter) - 1) * s.lens.width * s.lens.height;
 }
-/// … and how many numbers in all.
+/// Number of floats in `scratch`, images and draws of noisy lines.
 TOFRAY_FN std::int64_t scratch_floats(const Setup& s, Filter filter) {
   return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + effect::LineNoise::line_draws(s.sensor);
 }

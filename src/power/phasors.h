@@ -23,7 +23,7 @@ TOFRAY_FN void clear(const camera::PhasorView& s, const Wanted& wanted, Light<F>
   for (int j = wanted.first; j < wanted.last; ++j) light.in_phase[j] = F(0.0f), light.quarter[j] = F(0.0f);
 }
 
-/// Adds up light that was gathered apart, as far as anybody asks for it.
+/// Adds up light that was gathered apart, as far as it is wanted.
 template <class F>
 TOFRAY_FN void add_light(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& part, Light<F>& light) {
   light.signal_rate = light.signal_rate + part.signal_rate, light.ambient_rate = light.ambient_rate + part.ambient_rate;
@@ -215,7 +215,7 @@ TOFRAY_FN void sums_of_path(const camera::PhasorView& s, const Wanted& wanted, c
       path, [&](int j, F in_phase, F quarter) __attribute__((always_inline)) { light.in_phase[j] = in_phase, light.quarter[j] = quarter; });
 }
 
-/// Adds a path to light that other paths have brought, as far as anybody asks for it: to the sums alone, or to all orders.
+/// Adds a path to light that other paths have brought, as far as it is wanted: to the sums alone, or to all orders.
 template <class F>
 TOFRAY_FN void add_one_of_many(const camera::PhasorView& s, const Wanted& wanted, int l, const Path<F>& path, Light<F>& light) {
   if (s.sums_alone == 0) {
@@ -229,7 +229,7 @@ TOFRAY_FN void add_one_of_many(const camera::PhasorView& s, const Wanted& wanted
       });
 }
 
-/// Adds what somebody else has summed: one order of Σ rate·e^{imφ} over paths of light source `l`. (Their rates are added beside.)
+/// Adds light that is summed already: one order of Σ rate·e^{imφ} over paths of light source `l`. (Their rates are added beside.)
 /// @param h  which order, (m − 1)/2
 template <class F>
 TOFRAY_FN void add_phasor(const camera::PhasorView& s, int j, int l, int h, F x, F y, Light<F>& light) {

@@ -105,7 +105,7 @@ TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<
 }
 
 /// (Light × (1 + PRNU) + dark charge) × (1 ± g/2) → Poisson → reset and read noise → tap offsets → background suppression → full well →
-/// non-linearity → A, B, A−B → column and row noise → ADC.
+/// nonlinearity → A, B, A−B → column and row noise → ADC.
 /// @param light, orders  as of expected
 /// \tparam plain         likewise
 template <bool plain, class F>

@@ -51,7 +51,7 @@ std::vector<ArrayRow> make_table() {
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_ROW)
   rows.back().type = npy_type_of<bool>();  // `lit`: a byte in memory, which has no arrays of bool
   TOFRAY_DEPTH_ARRAYS(TOFRAY_ROW)
-  rows.push_back({"gt_time_s", number, "[]", "s", "trace", "when the ground truth holds"});
+  rows.push_back({"gt_time_s", number, "[]", "s", "trace", "time of the ground truth"});
   TOFRAY_TRUTH_ARRAYS(TOFRAY_ROW)
 #undef TOFRAY_ROW
   rows.push_back({"camera_matrix", number, "[3, 3]", "px", "camera", "fx, 0, cx; 0, fy, cy; 0, 0, 1"});
@@ -145,9 +145,9 @@ std::string array_reference() {
       "chooses. What has no pixels (`[phase]`, `[3, 3]` …) is small and always there, and so is `meta`, a text (JSON): version, seed,\n"
       "noise, number of the frame, units, and the camera and the scene with all their numbers.\n\n"
       "Arrays are row-major; invalid values are NaN in floats and 0 in integers. Camera frame: x right, y down, z forward. What begins\n"
-      "with `gt_` or `transient_` is ground truth at the middle of the middle raw frame; own light is the camera's. In C++ the same arrays "
-      "are members of\n"
-      "`Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n"
+      "with `gt_` or `transient_` is ground truth at the middle of the middle raw frame. Words at the end of a line say when a frame has\n"
+      "the array: with sub-pixel samples, with bounces, with transient histograms, or only where it is asked for by name. In C++ the same\n"
+      "arrays are members of `Frame::raw`, `Frame::depth` and `Frame::truth` (there without `gt_`).\n\n"
       "| array | type | shape | unit | from | what it is |\n|---|---|---|---|---|---|\n";
   for (const ArrayRow& row : array_table())
     text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name, row.type.name(), row.shape, row.unit, row.from, row.what);

@@ -46,7 +46,7 @@ class ArrayChoice {
 
   [[nodiscard]] bool has(const ArrayRow& row) const;
   [[nodiscard]] bool is_all() const { return all_; }
-  /// Those that were asked for by their own name.
+  /// Arrays that were asked for by their own name.
   [[nodiscard]] const std::vector<std::string>& named() const { return named_; }
   /// Whether any of the ground truth is in it.
   [[nodiscard]] bool has_truth() const;

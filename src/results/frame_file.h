@@ -41,10 +41,10 @@ class FrameArrays {
 };
 
 /// The bytes of frame.npz: raw data, depth, ground truth (where the frame has it), camera and `meta`, a JSON string (see meta.h).
-/// The same arguments give the same bytes.
+/// Equal arguments give equal bytes.
 std::string frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
                             const FrameFileOptions& options = {});
-/// The same into memory that is used again.
+/// The bytes of frame.npz, into memory that is used again.
 void frame_npz_bytes(const Frame& frame, const Camera& camera, const PoseMatrix& camera_pose, const std::string& meta,
                      const FrameFileOptions& options, std::string& file);
 

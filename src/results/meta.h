@@ -33,7 +33,7 @@ class FrameMeta {
   std::string before_, after_;  ///< of the index
 };
 
-/// The same of one frame.
+/// `meta` of one frame.
 std::string frame_meta(const Scene& scene, const Camera& camera, const SimulatorOptions& options, std::uint64_t frame_index);
 
 }  // namespace tofray::results

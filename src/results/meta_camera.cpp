@@ -19,7 +19,7 @@ using load::Settings;
 
 namespace {
 
-using SortedTree = nlohmann::json;  // sorted: it finds its keys in logarithmic time, whoever wrote how many
+using SortedTree = nlohmann::json;  // sorted: it finds its keys in logarithmic time, however many there are
 using model::Form;
 using model::Row;
 using model::Table;

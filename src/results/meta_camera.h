@@ -13,7 +13,7 @@ namespace tofray::results {
 /// @throws Error (bad_input) where `meta` has no camera, or a key is wrong
 Camera camera_of_meta(const std::string& meta, const std::string& where, const load::Settings& settings = {});
 
-/// The same camera as a profile's text, with one mode, which load_camera() reads. @throws Error as camera_of_meta
+/// The camera of `meta` as a profile's text, with one mode, which load_camera() reads. @throws Error as camera_of_meta
 std::string profile_of_meta(const std::string& meta, const std::string& where);
 
 }  // namespace tofray::results

@@ -16,7 +16,7 @@ namespace tofray::results {
 /// @throws Error (bad_input) that names every array that is missing or misshapen; (io) where the file cannot be read
 Raw read_raw_npz(const std::string& path);
 
-/// The same from a file that is in memory. @param where  the path, for messages
+/// Raw data out of a file that is in memory. @param where  the path, for messages
 Raw parse_raw_npz(std::string_view file, const std::string& where);
 
 }  // namespace tofray::results

@@ -31,7 +31,7 @@ FrameWriter::~FrameWriter() { stop(); }
 
 /// The first frame says how many there is memory for: one is computed while each worker has one, and the file that it becomes. Where
 /// there is not enough for two, and where no thread can be made, whoever computes writes.
-void FrameWriter::hire(const Frame& frame) {
+void FrameWriter::start_workers(const Frame& frame) {
   const std::size_t room = most_bytes / std::max<std::size_t>(1, bytes_of(frame));
   const std::uint64_t workers = frames_ == 1 || room < 3 ? 0 : std::min<std::uint64_t>({most_writers, frames_, (room - 1) / 2});
   try {
@@ -58,7 +58,7 @@ Frame& FrameWriter::next() {
 void FrameWriter::write(const std::string& suffix) {
   const Task task{given_++, current_, suffix};
   std::unique_lock lock(mutex_);
-  if (task.number == 0) hire(*current_);
+  if (task.number == 0) start_workers(*current_);
   if (workers_.empty()) {
     lock.unlock();
     done(task, file_);

@@ -45,7 +45,7 @@ class FrameWriter {
   };
   void work();
   void done(const Task& task, std::string& file);
-  void hire(const Frame& frame);
+  void start_workers(const Frame& frame);
   void stop();
 
   files::OutputFolder& folder_;

@@ -23,7 +23,7 @@ struct Loaded : Inputs {
 /// As load_inputs().
 Loaded load(const InputRequest& request);
 
-/// The same from the texts that a manifest keeps, with what the request sets. Only meshes and keyframes are read, if they have the
+/// Inputs out of the texts that a manifest keeps, with what the request sets. Only meshes and keyframes are read, if they have the
 /// manifest's SHA-256.
 /// @throws Error
 Loaded load_of_manifest(const results::Manifest& manifest, const InputRequest& request);

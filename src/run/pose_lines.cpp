@@ -55,7 +55,7 @@ void PoseLines::take(std::string_view line) {
   if (!first_s_) first_s_ = found->time_s;
 }
 
-/// Those that are complete.
+/// Takes the lines that are complete.
 void PoseLines::take_lines() {
   std::size_t from = 0;
   for (std::size_t end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', from)) {

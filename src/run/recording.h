@@ -27,7 +27,7 @@ struct RecordingCamera {
 
 /// Its camera, and the arrays that processing does not make, which are written again as they are.
 /// @param role  of the file, for the manifest
-/// @throws Error (bad_input) where nobody says which camera made it
+/// @throws Error (bad_input) where the camera that made it is not known
 Loaded load_recording(const Recording& from, const char* role, const RecordingCamera& camera);
 
 /// Its raw frames. @param noise  becomes Noise::off where they are expected values

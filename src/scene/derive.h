@@ -99,7 +99,7 @@ void each_derived(shape::List<T...>, const SceneView& s, Group& group, int momen
     place(group.derived.of<T>().free, static_cast<std::size_t>(s.bounces != 0 ? group.bodies.of<T>().count * moments : 0))),
    ...);
 }
-/// … and of all arrays that derive() fills, in an order that is always the same.
+/// Tells place(pointer, count) of all arrays that derive() fills, in an order that is always the same.
 template <class Place>
 void each_derived(SceneView& s, Derive what, Place&& place) {
   if (what == Derive::all) each_derived(shape::Shapes{}, s, s.still, 1, place);

@@ -15,8 +15,8 @@ struct Hierarchy {
   std::vector<shape::MeshNode> nodes;  ///< [0] holds all; never empty
   std::vector<shape::MeshTriangles> triangles;
   std::vector<shape::MeshDetails> details;  ///< one for each block of triangles, or none
-  bool has_texcoords = false;               ///< in `details`
-  bool has_shades = false;                  ///< likewise
+  bool has_texcoords = false;               ///< whether `details` has texture coordinates
+  bool has_shades = false;                  ///< whether `details` has shades
   shape::Vec center{}, half{};              ///< of the box round all of them
 };
 
@@ -30,7 +30,7 @@ Hierarchy build_hierarchy(const TriangleMesh& mesh);
 /// The one for all meshes with the same contents
 std::shared_ptr<const Hierarchy> shared_hierarchy(const TriangleMesh& mesh);
 
-/// The same boxes round the same triangles, whose vertices are elsewhere now.
+/// A hierarchy with its boxes fitted to the same triangles, whose vertices have moved.
 /// @param from  was built of the same triangles
 /// @param mesh  the vertices, and normals where it has any; the rest does not count
 void refit(const Hierarchy& from, const TriangleMesh& mesh, Hierarchy& out);

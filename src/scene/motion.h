@@ -45,7 +45,7 @@ struct CameraFrame {
 };
 CameraFrame camera_frame(const Pose& pose);
 
-/// … and how it moves, in the world.
+/// The camera's frame and how it moves, in the world.
 struct MovingCamera {
   CameraFrame frame;
   Vec velocity{0, 0, 0}, spin{0, 0, 0};

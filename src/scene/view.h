@@ -45,7 +45,7 @@ struct AlongsOf {
 using Bodies = shape::ByShape<BodiesOf>;
 /// One group seen from one point: the camera or a light.
 using Forms = shape::ByShape<FormsOf>;
-/// … and for parallel light.
+/// One group as parallel light sees it.
 using Alongs = shape::ByShape<AlongsOf>;
 
 /// Where a group's forms are.
@@ -102,7 +102,7 @@ struct SceneView {
   const brdf::MapView* maps;
   const shape::Vec* light_positions;  ///< [light] camera frame [m]
   const MotionView* motions;          ///< [0] of what stands still, then [1 + mover]
-  const MotionView* to_truth;         ///< [moment][as motions] step and turn from there to the time of the truth; null: nobody asks
+  const MotionView* to_truth;         ///< [moment][as motions] step and turn from there to the time of the truth; null: not asked for
   const std::int32_t* motion_of;      ///< [object] its row of `motions`
   const std::int32_t* class_of;       ///< [object] number of its class; −1: none
   const shape::Frame* frames;         ///< [moment][mover] the camera's, as what moves sees it: as if the camera moved the other way

@@ -119,7 +119,7 @@ std::string card_text(const Summary& of) {
       "documentation (Cameras, Validation).\n";
   out +=
       "\n## Arrays\n\nRow-major, little endian; invalid values are NaN in floats and 0 in integers. `z` lies along the optical axis, "
-      "`range` along the pixel's ray: mind which one is meant.\n\n"
+      "`range` along the pixel's ray: check which one is meant.\n\n"
       "| array | type | shape | unit | what it is |\n|---|---|---|---|---|\n" +
       array_rows(of);
   out +=
@@ -148,7 +148,7 @@ std::string card_text(const Summary& of) {
   out +=
       "\n## What is not in it\n\nColour pictures; diffraction and lens flare by reflections inside a lens; polarisation; people's and "
       "animals' motion unless the set's files have it; whatever tofray's documentation lists under Not simulated. Material of the near "
-      "infrared is what the set's file says of it: nobody measured these scenes.\n";
+      "infrared is what the set's file says of it: these scenes were not measured.\n";
   if (!of.holes.empty()) {
     out += "\n## Scenes left out\n\nTheir numbers stay free.\n\n| scene | why |\n|---|---|\n";
     constexpr std::size_t most = 20;

@@ -27,7 +27,7 @@ class ShownSamples {
 
   /// Reads them. @throws Error (io) where a tar is not there any more
   [[nodiscard]] std::vector<ShownSample> spread() const;
-  /// Those with the fewest valid pixels, the worst one first; of as many the lower number.
+  /// Samples with the fewest valid pixels, the worst one first; of as many the lower number.
   [[nodiscard]] std::vector<ShownSample> worst() const;
 
  private:

@@ -13,13 +13,13 @@
 
 namespace tofray {
 
-using backend::gpu::Lane;
+using backend::gpu::FrameStream;
 using backend::gpu::Own;
 
 namespace {
 
 /// One is filled, one computes, one is emptied.
-constexpr std::uint64_t lanes_per_gpu = 3;
+constexpr std::uint64_t streams_per_gpu = 3;
 /// Frames of one launch: a limit of CUDA's grids, with room.
 constexpr std::uint64_t most_frames = 32'768;
 
@@ -53,26 +53,28 @@ Own Simulator::Impl::own_of(std::uint64_t from, std::uint64_t count, const Reque
   return own;
 }
 
-/// Gives a lane up to `count` frames from number `from` on.
+/// Gives a stream up to `count` frames from number `from` on.
 /// @return how many it took
-std::uint64_t Simulator::Impl::fill(Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request) {
+std::uint64_t Simulator::Impl::fill(FrameStream& stream, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count,
+                                    const Request& request) {
   const Own own = own_of(from, count, request);
   for (std::uint64_t i = 0; i < count; ++i) {
     const FrameRequest wanted = request(from + i);
     if (i == 0 || own != Own::number) set_frame(wanted);
     if (i == 0) {
       const std::uint64_t room =
-          own == Own::number ? count : std::max<std::uint64_t>(1, options.batch_bytes / Lane::input_bytes(gpu.resident(), setup, job, own));
-      lane.begin(gpu.resident(), setup, job, own, static_cast<int>(std::min(count, room)));
+          own == Own::number ? count
+                             : std::max<std::uint64_t>(1, options.batch_bytes / FrameStream::input_bytes(gpu.resident(), setup, job, own));
+      stream.begin(gpu.resident(), setup, job, own, static_cast<int>(std::min(count, room)));
     }
-    if (!lane.add(setup, wanted.index)) return i;
+    if (!stream.add(setup, wanted.index)) return i;
   }
   return count;
 }
 
 void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken) {
   struct Flight {
-    Lane* lane;
+    FrameStream* stream;
     std::uint64_t from, frames;
   };
   const auto& gpus = engines.gpus();
@@ -81,30 +83,30 @@ void Simulator::Impl::frames_on_gpus(std::uint64_t count, const Request& request
   const std::size_t frame_bytes =
       std::max<std::size_t>(1, backend::gpu::Slab(setup, job.out, pipeline::scratch_floats(setup, job.filter)).bytes());
   const std::uint64_t chunk = std::clamp<std::uint64_t>(options.batch_bytes / frame_bytes, 1, most_frames),
-                      lanes = lanes_per_gpu * gpus.size();
+                      streams = streams_per_gpu * gpus.size();
   std::deque<Flight> flights;
   for (std::uint64_t next = 0, started = 0; taken < count;) {
-    if (next < count && flights.size() < lanes) {
+    if (next < count && flights.size() < streams) {
       backend::Cuda& gpu = *gpus[started % gpus.size()];
-      Lane& lane = gpu.lane(1 + started / gpus.size() % lanes_per_gpu);
-      const std::uint64_t frames = fill(lane, gpu, next, std::min(chunk, count - next), request);
-      lane.submit();
-      flights.push_back({&lane, next, frames});
+      FrameStream& stream = gpu.frame_stream(1 + started / gpus.size() % streams_per_gpu);
+      const std::uint64_t frames = fill(stream, gpu, next, std::min(chunk, count - next), request);
+      stream.submit();
+      flights.push_back({&stream, next, frames});
       next += frames, ++started;
       continue;
     }
     const Flight done = flights.front();
     flights.pop_front();
-    done.lane->wait();
+    done.stream->wait();
     for (std::uint64_t i = 0; i < done.frames; ++i) {
-      const flow::FrameView view = done.lane->slab().view(done.lane->received(static_cast<int>(i)));
+      const flow::FrameView view = done.stream->slab().view(done.stream->received(static_cast<int>(i)));
       take(simulator::arrays_of(view, camera, setup.transient.bins, request(done.from + i).index, -1));
       ++taken;
     }
   }
 }
 
-/// A frame of a GPU with a seed or pose of its own: a batch of one, whose lane takes them along.
+/// A frame of a GPU with a seed or pose of its own: a batch of one, whose stream takes them along.
 void Simulator::Impl::frame_by_batch(const FrameRequest& request, Frame& into) {
   std::uint64_t taken = 0;
   const auto take = [&](const FrameArrays& from) {
@@ -117,7 +119,7 @@ void Simulator::Impl::frame_by_batch(const FrameRequest& request, Frame& into) {
       1, [&](std::uint64_t) { return request; }, take, taken);
 }
 
-/// Where a frame hangs on those before, one follows the other.
+/// Where a frame depends on those before, one follows the other.
 void Simulator::Impl::frames_over_time(std::uint64_t count, const Request& request, const Take& take) {
   for (std::uint64_t i = 0; i < count; ++i) check_over_time(request(i));
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -190,14 +192,14 @@ void Simulator::Impl::frames_on_device(std::uint64_t count, const Request& reque
     into.memory = into.device->allocate(bytes);
     into.memory_bytes = bytes;
   }
-  Lane& lane = gpu.lane(1);
+  FrameStream& stream = gpu.frame_stream(1);
   for (std::uint64_t next = 0; next < count;) {
-    const std::uint64_t frames = fill(lane, gpu, next, std::min(most_frames, count - next), request);
-    lane.submit(static_cast<unsigned char*>(into.memory.get()) + next * into.slab.bytes());
+    const std::uint64_t frames = fill(stream, gpu, next, std::min(most_frames, count - next), request);
+    stream.submit(static_cast<unsigned char*>(into.memory.get()) + next * into.slab.bytes());
     for (std::uint64_t i = 0; i < frames; ++i) into.indices.push_back(request(next + i).index);
     next += frames;
-    lane.wait();
-    into.seconds += lane.seconds();
+    stream.wait();
+    into.seconds += stream.seconds();
   }
 }
 

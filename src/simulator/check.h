@@ -17,16 +17,16 @@ namespace tofray::simulator {
 void check(const Camera& camera);
 void check(const Scene& scene);
 void check(const SimulatorOptions& options);
-/// … and for all of them together: what is derived of things that move has to fit into memory.
+/// Checks that what is derived of things that move fits into memory.
 /// @param camera  rings and areas of light taken apart
 void check_moving_views(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
-/// … and the shapes of meshes that change theirs.
+/// Checks that the triangles of meshes that change their shape are within their limit.
 void check_changing_triangles(const Scene& scene, const Camera& camera, const SimulatorOptions& options);
-/// … and whether the light image, and the rays of samples within pixels, are within their limits.
+/// Checks that the light image, and the rays of samples within pixels, are within their limits.
 void check_light_image(const Scene& scene, const camera::ImageCamera& camera, const SimulatorOptions& options);
-/// … and the histograms of light by the length of its path.
+/// Checks that the histograms of light by path length are within their limit.
 void check_transient(const Scene& scene, const camera::ImageCamera& camera);
-/// … and whether light of all sources may stand in one of them: as pixels see it, they have one waveform.
+/// Checks that light of all sources may stand in one histogram: as pixels see it, they have one waveform.
 void check_one_waveform(const pipeline::Setup& setup);
 
 }  // namespace tofray::simulator

@@ -112,16 +112,16 @@ void check_light_image(const Scene& scene, const camera::ImageCamera& camera, co
   const std::int64_t again = transport.transient.bins > 0 ? 1 : 0;  // histograms follow the ways of one time once more
   const std::int64_t surfaces = pixels * ways * transport.bounces * (times + again), most_surfaces = base::limit::path_surfaces.value;
   if (surfaces > most_surfaces)
-    refuse("too many ways of light are to be followed",
+    refuse("too many light paths are to be followed",
            "got " + std::to_string(ways) + " for each of " + std::to_string(pixels) + " pixels, to " + std::to_string(transport.bounces) +
                " surfaces each" + (times > 1 ? " at each of " + std::to_string(times) + " times" : "") +
                (again > 0 ? ", and once more for their histograms" : "") + ", " + std::to_string(surfaces) + " in all, at most " +
                std::to_string(most_surfaces) + "\n  lower transport.samples (--samples) or transport.max_samples",
            ErrorKind::limit);
   if (transport.bounces > 0 && transport.max_samples > 0 && transport.max_samples < 2 * first)
-    refuse("transport.max_samples adds no ways of light", "got " + std::to_string(transport.max_samples) + ", but each pixel begins with " +
-                                                              std::to_string(first) +
-                                                              ", an even number for each sample within it, and goes on with twice as many");
+    refuse("transport.max_samples adds no light paths", "got " + std::to_string(transport.max_samples) + ", but each pixel begins with " +
+                                                            std::to_string(first) +
+                                                            ", an even number for each sample within it, and then doubles it");
   if (transport.bounces > 0 && camera.power_model == PowerModel::paper_literal)
     refuse("the paper's printed formula knows no light from surface to surface",
            "leave out transport.bounces, or power_model paper_literal");

@@ -35,7 +35,7 @@ class Engines {
 
   /// The processor, whatever else there is.
   [[nodiscard]] backend::Cpu& cpu() { return cpu_; }
-  /// Those that compute, the one of single frames first; empty: the processor does.
+  /// GPUs that compute, the one of single frames first; empty: the processor does.
   [[nodiscard]] const std::vector<std::unique_ptr<backend::Cuda>>& gpus() const { return gpus_; }
   /// Opens the others, too, unless the options name one, or they are open.
   /// @param setup  called where it is needed

@@ -41,7 +41,7 @@ class Exposure {
   AutoExposure law_;
   std::vector<RawFrame> mode_;
   double of_mode_ = 0;           // longest lit exposure of the mode
-  std::vector<double> longest_;  // [frame] the same of each frame
+  std::vector<double> longest_;  // [frame] longest lit exposure of each frame
 };
 
 /// Bright pixels of raw frames: how much of the valid codes they use, 1 and more where they saturate.               [theory: eq. 4.27]

@@ -38,12 +38,12 @@ struct Simulator::Impl {
   simulator::Exposure exposure;
   Frame earlier;                                 ///< one that a later one needs
   Frame whole;                                   ///< with the border, before it is cut
-  std::unique_ptr<Impl> of_region;               ///< the same without a border, for arrays of one's own: of the region alone
+  std::unique_ptr<Impl> of_region;               ///< a simulator of the region alone, without a border, for arrays in place of the scene
   std::unique_ptr<simulator::Handles> handles;   ///< of the scene's objects, once a request asks
   simulator::Placed placed;                      ///< what moves in `scene` as each request says
   std::vector<std::unique_ptr<Impl>> of_placed;  ///< those for requests that place objects or move the camera; the last one asked is first
   simulator::Engines engines;
-  const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; nobody looks at what lies there
+  const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; its content is not read
 
   /// @param with_border  false: nothing beside the region that is read
   Impl(const Scene& scene, const Camera& profile, const SimulatorOptions& wanted, bool with_border = true);
@@ -70,7 +70,7 @@ struct Simulator::Impl {
   }
   /// Puts the scene as it was looked at last into a setup.
   void set_scene(pipeline::Setup& to) const;
-  /// Why a frame hangs on earlier ones; null: it stands by itself.
+  /// Why a frame depends on earlier ones; null: it stands by itself.
   [[nodiscard]] const char* needs_earlier() const;
   /// Puts scene and sensor of a frame into `setup` and `job`.
   void set_frame(const FrameRequest& request);
@@ -81,7 +81,7 @@ struct Simulator::Impl {
              Frame& into);
   /// Gives `into` its sizes, and the region of the arrays.
   void cut(const flow::FrameView& from, Frame& into) const;
-  /// The same of a whole frame.
+  /// Cuts the region out of a whole frame.
   void cut(Frame& from, Frame& into) const;
   [[nodiscard]] scene::Times times_from(double start) const;
 
@@ -95,7 +95,7 @@ struct Simulator::Impl {
   /// Computes the frames before, as far as the exposures of this one are not known without them.
   void find_exposures(std::uint64_t index);
   void set_exposures(std::uint64_t index);
-  /// @throws Error (bad_input) where a frame hangs on earlier ones, and the request says another seed, pose or time than they
+  /// @throws Error (bad_input) where a frame depends on earlier ones, and the request says another seed, pose or time than they
   void check_over_time(const FrameRequest& request) const;
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
   void frame_by_batch(const FrameRequest& request, Frame& into);
@@ -105,7 +105,8 @@ struct Simulator::Impl {
   void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
   void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
   [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;
-  std::uint64_t fill(backend::gpu::Lane& lane, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count, const Request& request);
+  std::uint64_t fill(backend::gpu::FrameStream& stream, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count,
+                     const Request& request);
 };
 
 /// Frames in the memory of one GPU.

@@ -210,7 +210,7 @@ OwnInput input_of(const Transient& light, const camera::ImageCamera& camera, con
   check_histograms(light, camera);
   if (camera.illumination.empty()) refuse("the camera has no light source", "a histogram does not say how its light is modulated");
   const std::vector<double> frequencies = camera::modulations_of(camera.mode).frequency_hz;
-  if (frequencies.empty()) refuse("the camera's mode has no lit raw frame", "a histogram is of the camera's own light");
+  if (frequencies.empty()) refuse("the camera's mode has no lit raw frame", "a histogram is of light by the camera's illumination");
   check_one_waveform(setup);
   OwnInput own;
   own.sums = sums_of(light, frequencies, camera.refractive_index, setup.phasors.orders);

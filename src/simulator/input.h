@@ -25,7 +25,7 @@ OwnInput input_of(const Geometry& seen, const camera::ImageCamera& camera);
 OwnInput input_of(const PixelLight& light, const camera::ImageCamera& camera);
 /// @param setup  of the camera, with its phasors
 OwnInput input_of(const Transient& light, const camera::ImageCamera& camera, const pipeline::Setup& setup);
-/// The same of raw data; process() has looked at them.
+/// Input of raw data, which process() has checked.
 OwnInput input_of(const Raw& raw);
 
 }  // namespace tofray::simulator

@@ -188,7 +188,8 @@ class Sampler {
   ImageSize size_;
   SampledPictures out_;
   std::atomic<std::size_t> looked_{0}, outside_{0}, by_colour_{0};
-  std::atomic<std::size_t> unknown_{none}, wrong_{none};  ///< the first pixels of the pictures whose reflectivity nobody says, or cannot be
+  std::atomic<std::size_t> unknown_{none},
+      wrong_{none};  ///< the first pixels of the pictures whose reflectivity is not given, or cannot be
 };
 
 void Sampler::look_along_row(const DepthPicture& depth, int moment, int row) {

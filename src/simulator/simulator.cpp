@@ -32,7 +32,8 @@ void set_ambient(const Scene& scene, const camera::ImageCamera& camera, camera::
   // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
   if (!(rate <= 1e30)) {
-    throw Error(ErrorKind::bad_input, "error: the ambient light is beyond measure\n  mind its amount, and the table of its spectrum");
+    throw Error(ErrorKind::bad_input,
+                "error: the ambient light is too strong: more than 1e30 e/s\n  check its amount, and the table of its spectrum");
   }
   power.ambient_rate = static_cast<float>(rate * static_cast<double>(power.watts_per_radiance) / base::pi);
 }
@@ -221,7 +222,7 @@ Simulator::Impl& Simulator::Impl::for_own_arrays() {
 void Simulator::Impl::frame_uncut(const FrameRequest& request, const pipeline::Input* input, Frame& into) {
   const Transport& transport = input == nullptr ? scene.transport : no_transport;
   if (const char* const why = needs_earlier(); why != nullptr && input != nullptr)
-    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + ", and arrays of one's own are one frame");
+    throw Error(ErrorKind::bad_input, "error: " + std::string(why) + "; frames of arrays in place of the scene have no earlier ones");
   check_over_time(request);
   find_exposures(request.index);
   if (exposure.on() && exposure.known() <= request.index) return;  // stopped on the way

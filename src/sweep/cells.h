@@ -36,8 +36,8 @@ class Cells {
 
   const SweepRequest& request_;
   std::uint64_t count_ = 1;
-  std::vector<std::vector<std::string>> keys_;  ///< by axis: with what * means; empty: it hangs on the cell
-  bool late_are_plain_ = true;                  ///< keys that light does not hang on are numbers and switches of the camera
+  std::vector<std::vector<std::string>> keys_;  ///< by axis: with what * means; empty: it depends on the cell
+  bool late_are_plain_ = true;                  ///< keys that light does not depend on are numbers and switches of the camera
 };
 
 }  // namespace tofray::sweeps

@@ -39,7 +39,7 @@ std::string describe(const Node& node);
 /// @throws Error   at the first such fault
 Node parse_tree(std::string_view text, const std::string& source);
 
-/// The same for a value from the command line: every place is the source as a whole.
+/// Parses a value of the command line: every place is the source as a whole.
 Node parse_value(std::string_view text, const base::Place& place);
 
 /// The node as YAML on one line, which parse_value() reads back.

@@ -233,7 +233,7 @@ TEST(sigma, is_that_of_simulated_frames_with_each_effect_of_the_pixel) {
   }
 }
 
-/// A sine has no harmonics: nothing but light and noise hangs on the distance. Its one light is at the pupil.
+/// A sine has no harmonics: nothing but light and noise depends on the distance. Its one light is at the pupil.
 Camera plain_camera() {
   Camera camera = load_camera("pico-flexx");
   camera.illumination.resize(1), camera.illumination[0].position = {0, 0, 0}, camera.illumination[0].waveform = {};

@@ -245,7 +245,7 @@ TEST(error_causes, a_wall_that_comes_nearer_is_off_by_its_motion) {
     EXPECT_GT(std::abs(split.error_m), 1e-3);
     EXPECT_NEAR(share_of(split, "motion"), split.error_m, 2e-4) << "standing still, it is right";
   }
-  // The same way by keyframes.
+  // Motion along that way by keyframes.
   Scene keyed = scene;
   keyed.objects[0].velocity_m_per_s = {0, 0, 0};
   keyed.objects[0].keyframes = {{0, {0, 0, 0}, {}}, {0.4, {0, 0, -1.2}, {}}};

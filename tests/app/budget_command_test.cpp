@@ -77,7 +77,7 @@ TEST(budget_command, tells_people_what_marks_mean) {
   EXPECT_TRUE(has(text, "! beyond the ambiguity range: ")) << text;
   EXPECT_TRUE(has(text, "a wall of 80 % in the dark: range noise within 70 mm up to ")) << text;
   EXPECT_FALSE(has(run({"budget", "pico-flexx", "--distance", "1m"}).out, "low signal"));
-  EXPECT_TRUE(has(text, " e/J of own light in the amplitude; ambient light adds nothing to it\n")) << text;
+  EXPECT_TRUE(has(text, " e/J of the camera's illumination in the amplitude; ambient light adds nothing to it\n")) << text;
 }
 
 TEST(budget_command, finds_a_number_and_sets_it) {

@@ -110,7 +110,7 @@ TEST(multipath, of_numbers_out_of_range_is_refused_with_the_range) {
   // Each in its range, together too many.
   const Result much = run({"render", "nook.yaml", "-o", "out", "--bounces", "64", "--samples", "65536"}, in_folder(corner.folder.path()));
   EXPECT_EQ(much.code, 4);
-  EXPECT_TRUE(has(much.err, "error: too many ways of light are to be followed")) << much.err;
+  EXPECT_TRUE(has(much.err, "error: too many light paths are to be followed")) << much.err;
   EXPECT_TRUE(has(much.err, "lower transport.samples (--samples)")) << much.err;
   EXPECT_FALSE(fs::exists(corner.folder / "out"));
 }

@@ -83,7 +83,7 @@ TEST(transient, is_written_and_comes_back_as_raw_frames_and_depth) {
     ASSERT_EQ(run({"process", "--transient", "out/frame.npz", "-o", std::string("noisy") + seed, "--seed", seed}, here).code, 0);
   EXPECT_NE(array_of(folder / "noisy1" / "frame.npz", "raw").bytes, array_of(folder / "noisy2" / "frame.npz", "raw").bytes);
 
-  // The same light as others write it: the bins last, with a channel or without, in another unit, and nothing that says what they are.
+  // Light as other renderers write it: the bins last, with a channel or without, in another unit, and nothing that says what they are.
   std::vector<float> turned(light.count());
   const std::size_t pixels = image[0] * image[1];
   for (std::size_t i = 0; i < turned.size(); ++i) turned[i % pixels * 800 + i / pixels] = static_cast<float>(light.number(i) / 4);

@@ -49,7 +49,7 @@ class gltf_cut_out : public testing::Test {
     file.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
     return file;
   }
-  /// … of which it is a surface at these texels.
+  /// Expects of the scene's material that it is a surface at these texels.
   void expect_there(const Scene& scene, const std::array<bool, 4>& expected) const {
     const Material& material = scene.materials.at(static_cast<std::size_t>(scene.objects.at(0).material));
     ASSERT_NE(material.opacity, nullptr);

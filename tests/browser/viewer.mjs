@@ -350,7 +350,7 @@ export async function type(tab, key, text) {
   return field;
 }
 
-/** The same, until it is drawn. */
+/** Types a value into a field, and waits until it is drawn. */
 export async function set(tab, key, text) {
   await type(tab, key, text);
   await tab.page.locator(`[data-changed="${key}"] .now`).getByText(text, { exact: true }).waitFor();

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-# The same hashes once more, where the C library must do without fused products and wide vectors of its own (its fmaf is in software then,
+# Known hashes where the C library must do without fused products and wide vectors of its own (its fmaf is in software then,
 # which makes the plain scalar code slow: one scene of it, all of them from the fastest).
 add_test(NAME same_bytes_with_a_plain_c_library COMMAND test_bytes
   "--gtest_filter=all/KnownBytes.*fastest*:all/KnownBytes.*/demo")

@@ -83,7 +83,7 @@ TEST(set, draws_the_same_whatever_else_is_in_its_file) {
   EXPECT_EQ(behind.size(), 4U);
   for (const auto* one : {&behind, &in_front, &more})
     for (const auto& [path, value] : before) EXPECT_EQ(one->at(path).text, value.text) << path;
-  // … and another seed, sample or name another.
+  // Another seed, sample or name draws another value.
   EXPECT_NE(drawn(Written(set_of(ball)).set(), 18).at("objects/ball/radius").text, before.at("objects/ball/radius").text);
   std::string renamed = set_of(ball);
   renamed.replace(renamed.find("name: ball"), 10, "name: pall");

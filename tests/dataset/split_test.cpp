@@ -83,7 +83,7 @@ TEST(split, of_a_sample_changes_with_nothing_but_the_seed) {
     EXPECT_EQ(set.split(i), more.split(i));
     EXPECT_EQ(set.split(i), other.split(i));
     EXPECT_EQ(plain.split(i), "train");
-    EXPECT_EQ(plain.drawn(i).front().value, set.drawn(i).front().value) << "no other draw hangs on it";
+    EXPECT_EQ(plain.drawn(i).front().value, set.drawn(i).front().value) << "no other draw depends on it";
   }
   EXPECT_THROW((void)set.split(2000), Error);
 }

@@ -59,7 +59,7 @@ TEST(range, is_the_exact_inverse_of_the_path) {
   }
 }
 
-// … and of raw frames, along the pixel's own ray.
+// Range of raw frames, along the pixel's own ray.
 TEST(range, follows_the_ray_of_its_pixel) {
   Camera camera = bench_camera();
   camera.illumination[0].position = {0.1, -0.2, 0.05};

@@ -24,7 +24,7 @@ struct Pair {
 /// erfc(½/(√2·σ_q)), σ_q = σ_φ·√(M² + N²)/2π: as if phases were normal.
 double of_normal_phases(const Pair& p) { return std::erfc(0.5 / (std::sqrt(2.0) * p.sigma * std::hypot(p.m(), p.n()) / two_pi)); }
 
-/// The same from the distribution that the phase of a phasor with normal noise in both components has,
+/// Share of wrong cycles from the distribution that the phase of a phasor with normal noise in both components has,
 /// p(θ) = e^{−ρ²/2}/2π + ρ·cosθ/√(2π)·e^{−ρ²sin²θ/2}·Φ(ρ·cosθ), ρ = 1/σ_φ: the chance that |M·θ_2 − N·θ_1| > π, by sums.
 double of_noisy_phasors(const Pair& p) {
   constexpr int cells = 8000;

@@ -56,7 +56,7 @@ FEW_FRAMES = "--frames 2"
 VIEW = "{{ timeout --foreground --preserve-status -s INT 3 {} || [[ $? == 5 ]]; }}"
 VIEW_EXPORT = "{{ {} || [[ $? == 5 ]]; }}"   # ends by itself
 
-# The same of a stream, in a build that speaks no DDS.
+# A stream ends in the same ways, also in a build that speaks no DDS.
 STREAM = VIEW
 STREAM_BOUNDED = VIEW_EXPORT
 

@@ -37,7 +37,7 @@ std::string zip_of(const std::vector<Piece>& all, Packing packing, std::uint64_t
   return file;
 }
 
-/// The same by libzip.
+/// A zip file of the pieces by libzip.
 std::string zip_by_libzip(const std::vector<Piece>& all) {
   zip_source_t* buffer = zip_source_buffer_create(nullptr, 0, 0, nullptr);
   zip_source_keep(buffer);

@@ -139,7 +139,7 @@ TEST(glb, cut_short_anywhere_is_refused) {
   for (std::size_t size = 0; size < good.size(); ++size) {
     SCOPED_TRACE(size);
     expect_fault(good.substr(0, size), size < 4 ? "this is not JSON" : "the file is cut short");
-    // The same, where the header says so.
+    // A binary file that is cut short, where its header says so.
     if (size > 12) expect_fault("glTF" + word(2) + word(static_cast<std::uint32_t>(size)) + good.substr(12, size - 12), "m");
   }
 }

@@ -116,7 +116,7 @@ TEST(skin, scales_weights_that_do_not_add_up_to_1) {
   expect_near(parts_at_rest(model)[0].mesh.vertices[1], {2, 4, 0}, 1e-6);
   EXPECT_TRUE(has_notice(model, "weights of vertices that do not add up to 1 are scaled"));
   weights({1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
-  EXPECT_TRUE(has_notice(model_of(arm.file), "vertices without weights hang on their first joint"));
+  EXPECT_TRUE(has_notice(model_of(arm.file), "vertices without weights follow their first joint"));
   EXPECT_FALSE(has_notice(model_of(arm.file), "weights of vertices that do not add up to 1 are scaled"));
   expect_near(arm.part().mesh.vertices[1], {2, 4, 0}, 1e-6);
   weights({1, 0, 0, 0, 1, 0, 0, 0, 1, -0.5F, 0, 0, 0, 1, 0, 0});

@@ -99,7 +99,7 @@ struct Png {
   std::string transparent = {};  ///< what tRNS has
 };
 
-/// The same file by libpng.
+/// A PNG file by libpng.
 inline std::string libpng_png(const Png& png, const Samples& samples) {
   std::string file;
   png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

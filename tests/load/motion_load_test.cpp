@@ -127,7 +127,7 @@ TEST(motion_in_files, has_no_more_keyframes_than_the_limit) {
   }
 }
 
-// The same in structs: by the names of their members.
+// Faults of motion in structs are told by the names of their members.
 TEST(motion_in_code, is_checked_as_that_of_files) {
   const auto refused = [](const std::function<void(Scene&)>& change) -> std::string {
     Scene scene;

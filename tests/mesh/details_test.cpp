@@ -78,7 +78,7 @@ TEST(obj_details, that_differ_in_one_number_are_told_apart) {
 }
 
 TEST(obj_details, that_say_the_same_make_no_vertex) {
-  // The same numbers at other indices, and -0 for 0.
+  // Equal numbers at other indices, and -0 for 0.
   const ReadMesh read = read_obj(three + "v 1 1 1\nvn 0 0 2\nvn -0 0 1\nvt 0 1\nvt -0 1\nf 1/1/1 2/1/1 3/1/1\nf 1/2/2 4/2/2 3/2/2\n");
   expect_mesh(read, {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {1, 1, 1}}, {{0, 1, 2}, {0, 3, 2}});
 }

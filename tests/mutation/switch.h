@@ -241,7 +241,7 @@ TOFRAY_MUTATION_FN bool either(A&& a, B&& b) {
     }                                                                                 \
     return f(v...);                                                                   \
   }
-/// The same with the last two arguments changed about, or with the first one alone.
+/// Mutants of a selection: the last two arguments changed about, or the first one alone.
 #define TOFRAY_MUTATION_SELECT(N, f)                                               \
   [](const auto& m, const auto& a, const auto& b) __attribute__((always_inline)) { \
     if (::tofray_mutation::on<N>()) return f(m, b, a);                             \

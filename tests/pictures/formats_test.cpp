@@ -81,7 +81,7 @@ TEST(svg, has_each_image_as_a_png_of_the_sensors_pixels) {
   const std::string svg = preview_of(frame, Format::svg);
   const std::vector<ReadBack> images = images_of(svg);
   ASSERT_EQ(images.size(), 4U) << "z, amplitude, error, multipath";
-  // The same pixels as in the PNG, each of which is 5 x 5 there (100 columns on about 450 pixels), from 26, 86 on.
+  // Pixels as in the PNG, each of which is 5 x 5 there (100 columns on about 450 pixels), from 26, 86 on.
   const ReadBack png = read_back(preview_of(frame, Format::png));
   EXPECT_EQ(svg.find("<image x=\"26\" y=\"86\" width=\"500\" height=\"250\""), places_of(svg, "<image")[0]);
   ASSERT_EQ(images[0].width, 100U);

@@ -37,7 +37,8 @@ Camera on_the_axis(Camera camera) {
   return camera;
 }
 
-/// The same view with an eighth of the pixels along each side, none of which is taken for flying: that would choose among the errors.
+/// A camera of the same view with an eighth of the pixels along each side, none of which is taken for flying: that would choose among the
+/// errors.
 Camera coarse(Camera camera) {
   camera = camera::ImageCamera(camera);
   Lens& lens = camera.lens;

@@ -92,7 +92,7 @@ def test_it_is_a_sequence_of_frames(dataset: tofray.Dataset) -> None:
 
 
 def test_neighbouring_samples_have_noise_of_their_own(dataset: tofray.Dataset) -> None:
-    # The same scene twice: what is left of the difference is noise, and none of it is alike.
+    # One scene twice: what is left of the difference is noise, and none of it is alike.
     scene = dataset.scene(0)
     frames = [tofray.Simulator(scene, seed=dataset.noise_seed(i)).frame(0).raw.raw.astype(float) for i in range(3)]
     one, other = frames[1] - frames[0], frames[2] - frames[0]

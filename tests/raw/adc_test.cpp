@@ -168,7 +168,7 @@ TEST(quantiser, leaves_the_difference_alone_where_noise_is_off) {
   EXPECT_EQ(out.code, 2060.0f);
 }
 
-// … but codes cannot say more than their ends: the difference is held to what they reach, less the offset pattern that it is free of.
+// Codes cannot say more than their ends: the difference is held to what they reach, less the offset pattern that it is free of.
 TEST(quantiser, holds_the_difference_to_its_codes_where_noise_is_off) {
   auto sensor = adc(20);
   sensor.noise = camera::Noise::off;

@@ -139,7 +139,7 @@ TEST(blooming, comes_before_filters) {
   }
 }
 
-// … nor of it: a pixel that is flagged has another range, and what is around has one that no filter changes.
+// Filters take nothing of a flagged pixel: it has another range, and what is around has one that no filter changes.
 TEST(blooming, lets_no_flagged_pixel_bleed_into_what_filters_make) {
   for (const auto kind : {ImageFilter::Kind::gaussian, ImageFilter::Kind::median, ImageFilter::Kind::adaptive}) {
     Camera camera = blooming(0.1, 10);

@@ -262,8 +262,8 @@ TEST(electrons, of_several_lights_add_up) {
   }
 }
 
-// … at reference phases that are no quarter turns as well, where every harmonic's real and imaginary part is summed over the lights. From
-// D_k = Σ_l S_l·Σ_m a_m·cos(m(φ_l + τ_k) + ψ_m), with light poles that turn each light's harmonics by another angle.
+// Several lights add up at reference phases that are no quarter turns as well, where every harmonic's real and imaginary part is summed
+// over the lights. From D_k = Σ_l S_l·Σ_m a_m·cos(m(φ_l + τ_k) + ψ_m), with light poles that turn each light's harmonics by another angle.
 TEST(electrons, of_several_lights_add_up_at_any_reference_phases) {
   const double f = 60.24e6, poles[2] = {90e6, 200e6}, duties[2] = {0.25, 0.4}, signals[2] = {30000, 10000}, paths[2] = {2.0, 3.1};
   for (const int phases : {3, 5}) {

@@ -171,7 +171,7 @@ TEST(draws, of_a_whole_sequence_are_independent_of_each_other) {
   }
 }
 
-// The same counter with and without read noise: the rest is the read noise, of the right size, and knows nothing of the shot noise.
+// One counter with and without read noise: the rest is the read noise, of the right size, and knows nothing of the shot noise.
 TEST(draws, of_read_noise_are_independent_of_shot_noise) {
   camera::SensorView silent{}, noisy{};
   noisy.read_noise = 16;

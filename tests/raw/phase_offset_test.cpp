@@ -73,7 +73,7 @@ TEST(phase_offset, moves_the_phase_of_its_modulation_frequency_and_is_taken_out)
   }
 }
 
-// The same through the whole simulator, and through raw frames that are decoded later: pixels are not mixed up.
+// Phase offsets through the whole simulator, and through raw frames that are decoded later: pixels are not mixed up.
 TEST(phase_offset, is_taken_out_of_each_pixel_of_an_image) {
   Camera camera = load_camera("pico-flexx");
   const Scene scene = load_scene("card");

@@ -97,7 +97,7 @@ TEST(row_noise, is_the_same_with_every_instruction_set) {
   }
 }
 
-// The same of the plain float's text alone: the draw is the row's, and another one than that of the column of the same number.
+// Row noise by the plain float's text alone: the draw is the row's, and another one than that of the column of the same number.
 TEST(row_noise, of_a_pixel_is_its_row_s_and_not_that_of_the_column_of_that_number) {
   const auto bench_of = [](double row_noise_e, double column_noise_e) {
     Camera camera = bench_camera();

@@ -137,7 +137,8 @@ struct Suppressed {
 
 }  // namespace
 
-// As above; what is said takes one slope for all of a raw frame's swing, here 7 % of it: 5 % are left for that.
+// Noise of what suppression leaves of a bent charge; the estimate takes one slope for all of a raw frame's swing, here 7 % of it: 5 % are
+// left for that.
 TEST(said_noise_of_bent_charge, is_that_of_what_suppression_leaves) {
   for (const double factor : {0.0, 1.0}) {
     Camera camera = bench_camera();

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double light_speed = 299792458.0;
 
-/// The same way to all sides.
+/// A light source that shines evenly to all sides.
 Illumination bulb(const Vec3& position = {0, 0, 0}) {
   Illumination light = one_watt_per_steradian(position);
   light.pattern.half_angle_rad = pi, light.power_w = 4 * pi;
@@ -534,7 +534,7 @@ TEST(bounces, between_a_body_and_what_is_close_are_those_of_its_faces) {
   for (std::size_t i = 0; i < body.truth.range_m.size(); ++i) {
     ASSERT_EQ(body.truth.object_id[i], faces.truth.object_id[i]) << i;
     if (body.truth.object_id[i] != 0) continue;
-    // The same ways are taken; a few pass an edge on another side.
+    // Both take the same paths; a few pass an edge on another side.
     const auto one = static_cast<double>(body.truth.indirect_e[i]), two = static_cast<double>(faces.truth.indirect_e[i]);
     of_wall += one, other += std::abs(one - two), ++compared;
   }

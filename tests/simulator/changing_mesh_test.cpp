@@ -149,7 +149,7 @@ TEST(changing_mesh, that_is_shared_by_objects_is_one_and_others_stay_as_they_are
   scene.objects[2].position = {-0.5, 0, 1.6}, scene.objects[2].rotation = {}, scene.objects[2].velocity_m_per_s = {0.2, 0, 0};
   scene.objects.push_back(object(still));
   scene.objects[3].position = {0.4, -0.3, 1.4};
-  // … and one that shares its triangles with the first, but not how it moves.
+  // A mesh that shares its triangles with the first, but not how it moves.
   scene.objects.push_back(object(changing(still, [](double time_s, Corners& vertices, Corners&) {
     shift(vertices, {0.3 * time_s, 0, 0});
   })));

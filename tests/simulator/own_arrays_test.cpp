@@ -174,7 +174,7 @@ TEST(own_arrays, of_several_paths_add_up_as_phasors) {
   EXPECT_NEAR(static_cast<double>(frame.depth.amplitude_e[at] / once.depth.amplitude_e[at]), shrink / lit, 1e-4);
 }
 
-// … and no second light source is needed for that.
+// Several paths need no second light source.
 TEST(own_arrays, of_several_paths_may_come_from_one_light) {
   Camera camera = pico(), doubled = camera;
   doubled.illumination.push_back(doubled.illumination[0]);

@@ -105,7 +105,7 @@ TEST(path_noise, is_what_frames_of_other_seeds_are_off_by) {
   }
 }
 
-// … of smoothed light, too, whose error is smaller and whose bias is less than what it takes away.
+// The error of smoothed light, which is smaller and whose bias is less than what it takes away.
 TEST(path_noise, is_that_of_smoothed_light) {
   Scene scene = walls_and_card();
   scene.transport.bounces = 3, scene.transport.samples = 16;
@@ -145,7 +145,7 @@ TEST(path_noise, needs_room_for_a_second_step) {
   }
   for (const int bounces : {1, 2}) {
     EXPECT_EQ(said(bounces, 16, 64, 4), "");
-    EXPECT_NE(said(bounces, 16, 63, 4).find("transport.max_samples adds no ways of light\n  got 63, but each pixel begins with 32"),
+    EXPECT_NE(said(bounces, 16, 63, 4).find("transport.max_samples adds no light paths\n  got 63, but each pixel begins with 32"),
               std::string::npos)
         << said(bounces, 16, 63, 4);
   }

@@ -99,7 +99,7 @@ TEST(power_chain, lights_a_surface_from_the_cameras_side_only) {
   }
 }
 
-// The same scene and camera written in other units.
+// One scene and camera, written in other units.
 TEST(power_chain, does_not_depend_on_the_units_in_the_file) {
   const auto signal = [](const std::string& length, const std::string& power, const std::string& time) {
     const std::string path = std::string(TOFRAY_BINARY_DIR) + "/units_test.yaml";

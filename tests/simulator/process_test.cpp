@@ -49,7 +49,7 @@ TEST_P(Process, of_a_frame_s_raw_data_is_the_frame_s_depth) {
 TEST_P(Process, of_silent_taps_is_the_frame_s_depth_within_their_last_place) {
   const Scene scene = load_scene(GetParam());
   Camera camera = camera_of(scene);
-  camera.decoding.filter = {};  // whom it averages with hangs on last places, too
+  camera.decoding.filter = {};  // whom it averages with depends on last places, too
   const SimulatorOptions silent{.noise = Noise::off};
   Frame frame = Simulator(scene, camera, silent).frame(2);
   frame.raw.raw.clear();
@@ -58,7 +58,7 @@ TEST_P(Process, of_silent_taps_is_the_frame_s_depth_within_their_last_place) {
   // Where light bounces, modulation frequencies show different ranges, and their weights change at each node of the wiggling table.
   const double weighed = scene.transport.bounces > 0 ? 1e-4 : 0;
   for (std::size_t i = 0; i < depth.z_m.size(); ++i) {
-    // whether a level lies among the valid codes can hang on a tap's last place
+    // whether a level lies among the valid codes can depend on a tap's last place
     if (((frame.depth.flags[i] | depth.flags[i]) & flags_invalid) != 0) continue;
     ++compared;
     const double last_place = static_cast<double>(frame.depth.ambient_e[i] + frame.depth.amplitude_e[i]) * 0x1p-23;

@@ -130,7 +130,7 @@ TEST(readout, a_region_gets_what_comes_from_pixels_that_are_not_read) {
         ASSERT_EQ(part.depth.width, width / n);
         expect_part(part, all, left / n, top / n, what);
         if (n == 1) continue;
-        // … one of a batch, too.
+        // A frame of a batch is a part, too.
         Simulator many(steps(), region, {.noise = Noise::off, .threads = 1});
         many.frames(0, 2, [&](const FrameArrays& one) {
           ASSERT_EQ(one.width, part.depth.width);

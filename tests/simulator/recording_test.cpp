@@ -59,7 +59,7 @@ TEST(calibration, takes_a_constant_offset_of_range_and_phases_off) {
     EXPECT_NEAR(range_of(recorded(camera, off), camera), range + offset, 1e-5);
     camera.calibration.range_offset_m = offset;
     EXPECT_NEAR(range_of(recorded(camera, off), camera), range, 1e-5);
-    // … by frequency, each its own; between samples nobody asks.
+    // Each modulation frequency has its own offset; between samples there is no frequency.
     camera.calibration.phase_offset = {{60e6, 80e6}, {0.3, -0.4}};
     const auto both = [&](double f) { return phase_of(range + offset, f, n) + (f == 60e6 ? 0.3 : -0.4); };
     EXPECT_NEAR(range_of(recorded(camera, both), camera), range, 1e-5);

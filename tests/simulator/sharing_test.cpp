@@ -117,7 +117,7 @@ TEST(simulators_of_one_process, share_no_hierarchy_of_another_mesh) {
   const auto simulated = [&] { return Simulator(scene, camera, two_samples()).frame(0); };
   const auto covered = [](const Frame& frame) { return std::count(frame.truth.object_id.begin(), frame.truth.object_id.end(), 1); };
   const Frame whole = simulated();
-  // The same list of triangles, changed in place by who owns it, between two simulators.
+  // A list of triangles, changed in place by its owner, between two simulators.
   mesh->triangles.pop_back();
   const Frame half = simulated();
   EXPECT_LT(covered(half), covered(whole));

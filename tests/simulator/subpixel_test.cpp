@@ -41,7 +41,7 @@ Camera edge_camera() {
   return camera;
 }
 
-/// The same view with n × n pixels in the place of each.
+/// A camera of the same view with n × n pixels in the place of each.
 Camera finer(Camera camera, int n) {
   camera.sensor.width *= n, camera.sensor.height *= n, camera.sensor.pixel_pitch_m /= n;
   Lens& lens = camera.lens;
@@ -131,7 +131,7 @@ TEST(subpixel, samples_are_finer_pixels_taken_together) {
   }
 }
 
-// … also where they see pictures: a sample stands for a share of what a pixel sees of one.
+// Samples that see pictures: each stands for a share of what a pixel sees of one.
 TEST(subpixel, samples_see_pictures_as_finer_pixels_do) {
   auto map = std::make_shared<ReflectivityMap>();
   map->width = map->height = 256;

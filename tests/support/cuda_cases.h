@@ -52,7 +52,7 @@ inline Frame copy_of(const FrameArrays& a) {
   return out;
 }
 
-/// The same without what a batch does not hand out.
+/// A frame without what a batch does not hand out.
 inline Frame arrays_only(Frame frame) {
 #define TOFRAY_CLEAR(name, part, member, ...) frame.part.member.clear();
   TOFRAY_EXPOSURE_ARRAYS(TOFRAY_CLEAR)

@@ -38,7 +38,7 @@ struct FlatLoss {
   double valid = 0, low_signal = 0;
   double valid_middle = 0;  ///< of the pixels in the middle half of rows and columns, where there is light
   double flying = 0;        ///< of all pixels, those that fly though nothing else is wrong with them
-  double flat = 0;          ///< … and whose z is within 5σ̂ + limit of the wall: noise, taken for an edge
+  double flat = 0;          ///< flying pixels whose z is within 5σ̂ + limit of the wall: noise, taken for an edge
 };
 
 /// Shares of all pixels of a wall, over some frames.
@@ -72,9 +72,9 @@ inline double step_limit(double z) { return 0.018 + (0.14 - 0.018) * std::clamp(
 
 struct EdgesFound {
   double mixed = 0;   ///< pixels that see both
-  double flying = 0;  ///< … whose z without noise is off from both by more than the limit
+  double flying = 0;  ///< pixels that see both, whose z without noise is off from both by more than the limit
   double quiet = 0;   ///< share of those that are found where there is no noise
-  double noisy = 0;   ///< … and where there is, or invalid for another reason
+  double noisy = 0;   ///< share of those that are found where there is noise, or are invalid for another reason
 };
 
 /// With 9 samples in each pixel.

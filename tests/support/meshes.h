@@ -63,7 +63,7 @@ inline ClosedMesh icosphere(int cuts) {
   return mesh;
 }
 
-/// The same as users have it, in single precision.
+/// A closed mesh as users have it, in single precision.
 inline TriangleMesh single(const ClosedMesh& mesh) {
   TriangleMesh out;
   for (const Vec3& v : mesh.vertices)

@@ -6,7 +6,8 @@
 
 namespace tofray::test {
 
-/// The same view on a quarter of the pixels, with tiles that are cut at the right and below: each pixel takes its time under qemu and sanitizers.
+/// A camera of the same view on a quarter of the pixels, with tiles that are cut at the right and below: each pixel takes its time under
+/// qemu and sanitizers.
 inline Camera quarter(Camera camera) {
   Lens& lens = camera.lens;
   camera.sensor.width /= 2, camera.sensor.height /= 2;

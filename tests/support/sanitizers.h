@@ -25,7 +25,7 @@ constexpr bool with_sanitizers = false;
 /// How often a test that repeats itself does so: a sanitizer sees in a tenth of it what it would see in all.
 constexpr int often(int times) { return with_sanitizers ? times / 10 : times; }
 
-/// The same; but so often as an environment variable says where it is set (.ci/long).
+/// How often a test repeats itself, unless an environment variable says another number (.ci/long).
 inline int often_unless(const char* variable, int times) {
   const char* const said = std::getenv(variable);
   return said != nullptr ? std::atoi(said) : often(times);

@@ -58,7 +58,7 @@ inline Object standing(Object object, double time_s) {
   return object;
 }
 
-/// … of a whole scene, with its camera.
+/// A whole scene, with its camera, as it stands at a time.
 inline Scene standing(Scene scene, double time_s) {
   for (Object& object : scene.objects) object = standing(object, time_s);
   const std::vector<CameraKeyframe> keys = scene.camera.keyframes;

@@ -180,7 +180,7 @@ TEST(drag, goes_on_from_where_it_began_whatever_was_set_on_the_way) {
   const Json once = hands.drag(ball, u, v, 24, 0, "parallel");
   hands.apply(hands.drag(ball, u, v, 12, 0, "parallel"));
   ASSERT_EQ(hands.generation(), 2u);
-  // The same drag, whose base is the state before.
+  // One more drag, whose base is the state before.
   const Json on =
       hands.page().answer(R"({"type":"drag","id":8,"object":26,"from":[)" + std::to_string(u) + "," + std::to_string(v) + R"(],"to":[)" +
                               std::to_string(u + 24) + "," + std::to_string(v) + R"(],"how":"parallel","base":1})",

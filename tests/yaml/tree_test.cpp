@@ -133,7 +133,7 @@ std::vector<std::string> malformed() {
                                               "\x1b[2J",
                                               "\x1f",
                                               "\x7f"};
-  // The same bad text at the start, as a value, in a list, in a map, behind good lines.
+  // A bad text at the start, as a value, in a list, in a map, behind good lines.
   const std::vector<std::string> frames[] = {
       {"", ""}, {"a: 1\nzebra: ", "\n"}, {"[x, ", ""}, {"# comment\n\nb:\n  - ", "\n"}, {"{\"json\": ", "}"}};
   std::vector<std::string> out;

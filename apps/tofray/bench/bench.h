@@ -40,9 +40,9 @@ class Contender {
  private:
   /// Median time of each stage [ms], from runs of their own that write to one place.
   [[nodiscard]] files::Json stage_ms();
-  /// The same frames again, each written to another place.
+  /// Median time of a frame [ms] that is written to another place than the one before.
   [[nodiscard]] files::Json other_places();
-  /// Time until a simulator can compute [ms]: from nothing, and the median of another lens, whose rays nobody has yet, of another sensor behind
+  /// Time until a simulator can compute [ms]: from nothing, and the median of another lens, whose rays are new, of another sensor behind
   /// the same lens, and of another scene before the same camera; its lights and meshes are those of this one.
   [[nodiscard]] files::Json set_up_ms() const;
   void step_into(Frame& place, bool timed);

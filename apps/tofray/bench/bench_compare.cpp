@@ -36,7 +36,7 @@ run::Loaded moving(run::Loaded in) {
   return in;
 }
 
-/// The same view on 640 x 480 pixels.
+/// The camera's view on 640 x 480 pixels.
 run::Loaded enlarged(run::Loaded in) {
   in.camera = camera::ImageCamera(in.camera);
   Sensor& sensor = in.camera.sensor;

@@ -31,7 +31,7 @@ struct Energy {
 Energy energy_per_frame(energy::Meter& cpu, energy::Meter* gpu, double seconds, std::uint64_t frames,
                         const std::function<void()>& simulate);
 
-/// The same with this machine's counters, for as long as they need: RAPL's move every millisecond, NVML's every 20 to 100 ms.
+/// Energy per frame by this machine's counters, for as long as they need: RAPL's move every millisecond, NVML's every 20 to 100 ms.
 /// @param gpu_bus_id  which GPU takes part; empty: none
 /// @param frames      that one call of `simulate` is
 Energy energy_per_frame(const std::string& gpu_bus_id, std::uint64_t frames, const std::function<void()>& simulate);

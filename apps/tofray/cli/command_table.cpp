@@ -114,7 +114,8 @@ std::vector<Command> make() {
        .more =
            "FILE is a .npz file, an MCAP file, a scene file or the name of a built-in scene.\n"
            "Where light bounced, --pixel follows it again with one bounce, two and so on, until less than 1/1000 of the pixel's light is\n"
-           "left: of up to B bounces that takes up to (B - 1)/2 times as long as a frame with its ways in all pixels. What a bounce does "
+           "left: with up to B bounces that takes up to (B - 1)/2 times as long as a frame with all paths of all pixels. What a bounce "
+           "does "
            "to the half path is "
            "what\n"
            "it adds once all before it are there. For a file the scene comes from manifest.json, which has to lie beside it.\n",
@@ -154,10 +155,10 @@ std::vector<Command> make() {
                    "tofray view film/run.mcap                        # plays the raw frames of a film, decoded as it goes\n"
                    "tofray view out --beside scene.yaml              # a recording beside what the simulator makes of the scene\n"
                    "tofray view demo --export demo.html --frames 5   # a page for a paper or a bug report: one file, no server\n",
-       .more = "The address that it prints has a key behind #: whoever has it sees and changes this view, nobody else does. It listens on "
+       .more = "The address that it prints has a key behind #: only those who have it see and change this view. It listens on "
                "this\n"
                "machine alone. Over ssh: ssh -L 7170:127.0.0.1:7170 HOST, then the same address in your own browser. Ctrl-C ends it.\n"
-               "Frames are computed while somebody looks, and have the bytes that `tofray render` gives them.\n"
+               "Frames are computed while a page is open, and have the bytes that `tofray render` gives them.\n"
                "Of files nothing is simulated: where they have raw frames of a camera that they or --camera name, depth is computed as\n"
                "`tofray process` does it, with its decoding under controls.\n",
        .options = {"--set",      "--camera",  "--mode",           "--seed",   "--noise",      "--exposure-samples",
@@ -254,7 +255,7 @@ std::vector<Command> make() {
        .summary = "read a scene or a camera profile and report every fault with its place",
        .examples = "tofray check scene.yaml\n"
                    "make_scene.py | tofray check -                   # a scene that comes on stdin\n"
-                   "tofray check mycam.yaml --sources                # names each number that does not say where it comes from\n"
+                   "tofray check mycam.yaml --sources                # lists each number without a source\n"
                    "tofray check scene.yaml --set ambient.level=\"5 %\"\n"
                    "tofray check pico-flexx --at 0.3m..4m --reflectivity 10% --ambient none,50klx    # noise and wrong cycles there\n",
        .options = {"--set", "--mode", "--at", "--reflectivity", "--ambient", "--sources", "--root", "--json", "--quiet"},
@@ -269,15 +270,15 @@ std::vector<Command> make() {
                    "tofray budget pico-flexx --distance 0.3m:5m:50 --reflectivity 10%,80% --ambient none,20klx -o budget.csv\n"
                    "tofray budget flexx2 --distance 1m --angle 20deg --temperature 60C --pixel 5,5 --json\n"
                    "tofray budget pico-flexx --need \"sigma 10mm at 2m, 50%, 5klx\" --solve illumination.0.power\n",
-       .more =
-           "One pixel looks at a matt wall: expected light, electrons, filling of taps and ADC, range noise of a single frame before "
-           "filters, and\n"
-           "its variance by cause: shot noise of own light, of ambient light, of dark charge; reset and read noise, rounding by the ADC,\n"
-           "background suppression, columns and rows. `wrong` is the chance that the range is whole cycles off.\n"
-           "Not in it: multipath, scattered light, crosstalk, patterns of the specimen, other cameras. Radiant intensity is no verdict "
-           "about\n"
-           "eye safety: IEC 60825-1 asks for the source's size and pulses, too.\n"
-           "Exit code 1 where no number makes the noise that --need asks for.\n",
+       .more = "One pixel looks at a matt wall: expected light, electrons, filling of taps and ADC, range noise of a single frame before "
+               "filters, and\n"
+               "its variance by cause: shot noise of the camera's illumination, of ambient light, of dark charge; reset and read noise, "
+               "rounding\n"
+               "by the ADC, background suppression, columns and rows. `wrong` is the probability that the range is whole cycles off.\n"
+               "Not in it: multipath, scattered light, crosstalk, patterns of the specimen, other cameras. Radiant intensity is no verdict "
+               "about\n"
+               "eye safety: IEC 60825-1 asks for the source's size and pulses, too.\n"
+               "Exit code 1 where no number makes the noise that --need asks for.\n",
        .options = {"--distance", "--reflectivity", "--ambient", "--angle", "--temperature", "--pixel", "--mode", "--set", "--auto-exposure",
                    "--need", "--solve", "--output", "--csv", "--json"},
        .least_words = 1,
@@ -328,7 +329,8 @@ std::vector<Command> make() {
                "{choice: [a, b]}, \"= wall - 0.5 m\". What is drawn depends on the seed, the sample and the key's path alone: sample 12 is "
                "the same\n"
                "on every machine, and another key or object changes no other draw.\n"
-               "Shards are tars of .npy and .json files. Whoever is killed, or makes a shard that another one makes, too, leaves the same\n"
+               "Shards are tars of .npy and .json files. A process that is killed, or makes a shard that another one makes, too, leaves "
+               "the same\n"
                "bytes: run the same command again. Exit code 1: run had more holes than the set allows, status or verify found something "
                "missing or\n"
                "damaged.\n"

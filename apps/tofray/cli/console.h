@@ -13,15 +13,15 @@ void secure_standard_files();
 /// Writes data to stdout, at once and completely. Names of files and texts out of them steer no terminal: base::printable_lines().
 /// @throws Error (io) where that fails
 void print(std::string_view text);
-/// The same for a picture, whose colours are control characters.
+/// Writes a picture to stdout, whose colours are control characters.
 void print_picture(std::string_view text);
 
-/// Writes talk to stderr, printable too; where that fails nobody can be told.
+/// Writes talk to stderr, printable too; a failure there cannot be told.
 void say(std::string_view text);
-/// The same for a line that is drawn anew.
+/// Writes a line to stderr that is drawn anew.
 void redraw(std::string_view line);
 
-/// The same unless --quiet was given.
+/// Writes talk to stderr, unless --quiet was given.
 class Talk {
  public:
   explicit Talk(bool quiet) : quiet_(quiet) {}

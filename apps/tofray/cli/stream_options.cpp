@@ -56,7 +56,7 @@ void take_camera(Options& o, const std::string& value) {
 
 std::vector<OptionSpec> stream_specs() {
   return {
-      {"--to", 0, "WHERE", "dds: ROS 2 and whoever speaks DDS; foxglove: Foxglove, Lichtblick and whoever speaks their WebSocket (dds)",
+      {"--to", 0, "WHERE", "dds: ROS 2 and other readers of DDS; foxglove: Foxglove, Lichtblick and other readers of their WebSocket (dds)",
        [](Options& o, const std::string& v) {
          o.stream.to = static_cast<Options::Stream::To>(word_of("--to", v, {"dds", "foxglove"}));
        },

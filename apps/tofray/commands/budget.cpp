@@ -59,7 +59,7 @@ struct Answer {
   std::vector<BudgetRow> rows;
   BudgetSummary summary;
   std::string found;     ///< what --solve found, or that it found nothing; else empty
-  files::Json solution;  ///< the same
+  files::Json solution;  ///< what --solve found, as JSON
   bool reached = true;
 };
 

@@ -90,17 +90,18 @@ std::string summary_lines(const Camera& camera, const std::vector<BudgetRow>& ro
     frequencies.push_back(base::quantity_text(one.modulation_frequency_hz, "1 MHz"));
   std::string text = fmt::format("{} in mode {}\n", camera.name, camera.mode.name);
   text += line("ambiguity range", fmt::format("{:.3f} m, by {}", summary.ambiguity_range_m, base::listed(frequencies, "and")));
-  text += line("own light", fmt::format("{} a frame, {} on the mean; {} toward the pixel's wall, while a raw frame is lit",
-                                        with_prefix(summary.energy_per_frame_j, "J"), with_prefix(summary.mean_power_w, "W"),
-                                        with_prefix(summary.radiant_intensity_w_sr, "W/sr")));
+  text += line("illumination", fmt::format("{} a frame, {} on the mean; {} toward the pixel's wall, while a raw frame is lit",
+                                           with_prefix(summary.energy_per_frame_j, "J"), with_prefix(summary.mean_power_w, "W"),
+                                           with_prefix(summary.radiant_intensity_w_sr, "W/sr")));
   text += line("noise-equivalent distance", std::isnan(summary.noise_at_1_m_m) ? "none: a white wall at 1 m saturates"
                                                                                : with_prefix(summary.noise_at_1_m_m, "m") +
                                                                                      ": range noise of a white wall at 1 m in the dark");
   const std::string ambient = summary.uncorrelated_e_per_j == 0
                                   ? "; ambient light adds nothing to it"
                                   : fmt::format(", {:.3g} e/J of ambient light", summary.uncorrelated_e_per_j);
-  return text + line("responsivity", fmt::format("{:.3g} e/J of own light in the amplitude{}{}", summary.correlated_e_per_j, ambient,
-                                                 summary.rejection ? fmt::format(": rejected {:.3g} to 1", *summary.rejection) : ""));
+  return text +
+         line("responsivity", fmt::format("{:.3g} e/J of the camera's illumination in the amplitude{}{}", summary.correlated_e_per_j,
+                                          ambient, summary.rejection ? fmt::format(": rejected {:.3g} to 1", *summary.rejection) : ""));
 }
 
 /// What is told of a list's numbers is told of NaN by null.

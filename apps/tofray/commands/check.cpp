@@ -33,7 +33,7 @@ SimulatorOptions on_processor(const Options& options) {
   return out;
 }
 
-/// What is asked of the camera: by the options, else what stands there without them, and in a scene its own light, too.
+/// What is asked of the camera: by the options, else what stands there without them, and for a scene its ambient light, too.
 CameraQuestion question_of(const Options& options, const Scene* scene) {
   CameraQuestion out;
   if (!options.at_m.empty()) out.distances_m = options.at_m;

@@ -30,7 +30,7 @@ std::string origin_of(const McapContents& of) {
 std::string text_of(const McapContents& of) {
   std::string text =
       fmt::format("{}: MCAP, profile {}, by {}\n{}\n", base::printable(of.file), of.profile.empty() ? "none" : base::printable(of.profile),
-                  of.library.empty() ? "nobody knows whom" : base::printable(of.library), origin_of(of));
+                  of.library.empty() ? "an unknown writer" : base::printable(of.library), origin_of(of));
   text += fmt::format("{:<36} {:<38} {:>9} {:>9} {:>11}\n", "topic", "type", "messages", "Hz", "kB each");
   for (const McapContents::Channel& one : of.channels) {
     const double each = one.messages == 0 ? 0 : 1e-3 * static_cast<double>(one.bytes) / static_cast<double>(one.messages);

@@ -18,7 +18,7 @@ namespace tofray::app {
 std::string depth_text(const Validity& of, const char* which);
 /// Name of each bit of Depth::flags, from bit 0.
 const std::vector<std::string>& flag_names();
-/// Those of the bits that are set.
+/// Names of the bits that are set.
 std::vector<std::string> names_of_flags(unsigned flags);
 
 /// The GPU's name; empty where the processor computed.

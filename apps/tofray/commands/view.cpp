@@ -90,7 +90,7 @@ void say_address(const Options& options, const view::Address& at, std::optional<
   } else {
     print(at.url + "\n");
     const Talk talk(options.quiet);
-    talk("  Ctrl-C ends it. The address is a key: whoever has it sees and changes this view.\n");
+    talk("  Ctrl-C ends it. The address is a key: all who have it see and change this view.\n");
     if (const char* ssh = std::getenv("SSH_CONNECTION"); ssh != nullptr && *ssh != '\0')
       talk(fmt::format("  From your own machine: ssh -L {0}:127.0.0.1:{0} THIS-MACHINE, then the address above.\n", at.port));
   }

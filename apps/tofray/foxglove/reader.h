@@ -26,7 +26,7 @@ struct Reception {
   std::atomic<int> connections = 0;
 };
 
-/// Who reads the stream: a connection that speaks HTTP once, then its WebSocket.
+/// A reader of the stream: a connection that speaks HTTP once, then its WebSocket.
 class Reader : public std::enable_shared_from_this<Reader> {
  public:
   Reader(view::tcp::socket&& socket, std::shared_ptr<Reception> reception);

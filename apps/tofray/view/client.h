@@ -41,7 +41,7 @@ class Client : public std::enable_shared_from_this<Client> {
   [[nodiscard]] std::uint64_t number() const { return number_; }
   /// Whether it looks at anything.
   [[nodiscard]] bool looks() const { return greeted_ && visible_ && !arrays_.empty() && !closing_; }
-  /// … and would get another frame at once.
+  /// Whether it looks at anything and would get another frame at once.
   [[nodiscard]] bool has_room() const { return looks() && channels_[0].has_room() && (!hub_.has_other() || channels_[1].has_room()); }
   [[nodiscard]] const std::vector<std::uint16_t>& arrays() const { return arrays_; }
   [[nodiscard]] double hz() const { return hub_.hz_of(rate_); }

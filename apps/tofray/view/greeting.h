@@ -16,7 +16,7 @@ struct Scales {
   std::vector<Pane> panes;
   std::vector<std::pair<std::string, files::Json>> ranges;  ///< one for each pane; null: none
 };
-/// Those that a frame has and gives. @param frame  with all its arrays
+/// Ranges of colours that a frame has and gives. @param frame  with all its arrays
 Scales scales_of(const Frame& frame);
 
 /// The message `hello`. @param other  side B, or none  @param build  SHA-256 of the page

@@ -18,7 +18,7 @@ struct Pane {
   const char* title;
 };
 std::vector<Pane> all_panes();
-/// Those whose arrays the frame has.
+/// Panes whose arrays the frame has.
 std::vector<Pane> panes_of(const Frame& frame);
 
 /// The range of an array's values in this frame, as messages have it; null for one that is shown by its bits; nothing where no pane shows it.

@@ -140,7 +140,7 @@ class EndOfInput {
   char some_[256] = {};
 };
 
-/// The same for what the shell told to be ignored, as nohup does.
+/// Handles a signal, unless the shell told to ignore it, as nohup does.
 void add_signal(net::signal_set& signals, int signal) {
   struct sigaction now {};
   if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) return;

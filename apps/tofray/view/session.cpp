@@ -34,7 +34,7 @@ Session::Mail Session::Impl::wait() {
   return std::exchange(mail_, Mail());
 }
 
-/// Whether a frame is to be computed now: somebody looks, and it is a new one.
+/// Whether a frame is to be computed now: a page looks, and it is a new one.
 bool Session::Impl::due(const Demand& demand, Clock::time_point now) const {
   return demand.ready && !demand.wants.empty() && (!all_shown() || (playing() && now >= next_));
 }

@@ -73,8 +73,8 @@ struct Session::Mail {
     Query query;
   };
   std::vector<Change> edits;
-  std::vector<std::uint64_t> joined;                                    ///< who wants a greeting
-  std::vector<std::uint64_t> left;                                      ///< who is there no more
+  std::vector<std::uint64_t> joined;                                    ///< clients that want a greeting
+  std::vector<std::uint64_t> left;                                      ///< clients that are gone
   std::map<std::uint64_t, Question> questions;                          ///< by page
   std::map<std::uint64_t, Why> whys;                                    ///< by page
   std::map<std::pair<std::uint64_t, std::size_t>, Inquired> inquiries;  ///< by page and kind
@@ -136,7 +136,7 @@ struct SideOfSession {
   Frame frame, draft_frame;
   std::uint32_t sequence = 0;
   bool shown = false;    ///< the frame of the state has been published
-  bool drafted = false;  ///< … or a draft of it
+  bool drafted = false;  ///< a draft of the state's frame has been published
   /// How long a frame takes; a draft comes before a long one.
   double frame_ms = std::numeric_limits<double>::infinity();
 };
@@ -266,7 +266,7 @@ class Session::Impl {
   }
   const Drawing& drawing_of(SideOfSession& on, const SceneAt& at);
   void tell_scene(const Inquired& inquired, const SceneQuestion& asked, double time_s);
-  /// The state that a drag began in; null where its frame was given up. @throws Error where nobody knows it any more
+  /// The state that a drag began in; null where its frame was given up. @throws Error where it is no longer known
   const Held* held(const Inquired& inquired, std::optional<std::uint32_t> base, int object, int u, int v);
   void tell_moved(const Inquired& inquired, const char* type, std::uint64_t id, std::uint32_t base, const Moved& moved);
   void begin_series(const Inquired& inquired, const Temporal& asked, double time_s);

@@ -54,9 +54,9 @@ std::string command_of(const State& state);
 
 /// The words of the command that makes these frames' files.
 std::vector<std::string> recording_words(const State& state, std::uint64_t first, std::uint64_t frames);
-/// Those of `tofray view` that show the state.
+/// The words of `tofray view` that show the state.
 std::vector<std::string> live_words(const State& state);
-/// As a shell takes them.
+/// Words as a shell takes them.
 std::string shell_text(const std::vector<std::string>& words);
 
 /// What a picture of a frame carries, and the command that shows it live.

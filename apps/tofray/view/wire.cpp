@@ -83,7 +83,7 @@ const std::vector<WireArray>& wire_arrays() {
 #define TOFRAY_ROW(label, part, member, element, axes, stage, when, unit, what) \
   {#label, unit, what, type_of<element>().name, type_of<element>().number, ArrayShape::axes},
   static const std::vector<WireArray> all = {
-      TOFRAY_FRAME_ARRAYS(TOFRAY_ROW){"z_error_m", "m", "z_m - gt_z_m", "f32", 5, ArrayShape::image}};
+      TOFRAY_FRAME_ARRAYS(TOFRAY_ROW){"z_error_m", "m", "error of z: z_m - gt_z_m", "f32", 5, ArrayShape::image}};
 #undef TOFRAY_ROW
   return all;
 }

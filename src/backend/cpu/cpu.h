@@ -30,7 +30,7 @@ int pieces_of(const pipeline::Step& step, const pipeline::Setup& setup);
 class Cpu final : public Engine {
  public:
   /// @param threads   0: one per core
-  /// @param progress  null: nobody asks
+  /// @param progress  null: not asked for
   Cpu(Isa isa, int threads, FrameProgress* progress = nullptr);
   ~Cpu() override;
 

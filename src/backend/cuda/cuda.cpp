@@ -79,14 +79,14 @@ void Cuda::load(const pipeline::Setup& setup) {
   occupancy_ = static_cast<double>(threads) / device_.info().threads_per_processor;
 }
 
-gpu::Lane& Cuda::lane(std::size_t i) {
+gpu::FrameStream& Cuda::frame_stream(std::size_t i) {
   device_.use();
-  while (lanes_.size() <= i) lanes_.emplace_back(device_, block_size_);
-  return lanes_[i];
+  while (frame_streams_.size() <= i) frame_streams_.emplace_back(device_, block_size_);
+  return frame_streams_[i];
 }
 
 void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
-  gpu::Lane& first = lane(0);
+  gpu::FrameStream& first = frame_stream(0);
   first.begin(resident_, setup, job, setup.scene.moments > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
   first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
   first.submit_graph();

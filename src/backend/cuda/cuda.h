@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "backend/cpu/cpu.h"
-#include "backend/cuda/lane.h"
+#include "backend/cuda/frame_stream.h"
 #include "backend/engine.h"
 
 /// Runs the pipeline on a GPU: one thread for each pixel. No type of CUDA's is in this header.
@@ -50,8 +50,8 @@ class Cuda final : public Engine {
   /// All but the processor's isa and threads.
   void describe(RanOn& out) const override;
 
-  /// Lane i; made where there is none yet.
-  gpu::Lane& lane(std::size_t i);
+  /// Stream i; made where there is none yet.
+  gpu::FrameStream& frame_stream(std::size_t i);
   [[nodiscard]] const gpu::Resident& resident() const { return resident_; }
   [[nodiscard]] const gpu::Device& device() const { return device_; }
 
@@ -61,7 +61,7 @@ class Cuda final : public Engine {
   Cpu& host_;
   double occupancy_ = 0;  ///< how full one multiprocessor is of the kernel that takes the time
   gpu::Resident resident_;
-  std::deque<gpu::Lane> lanes_;
+  std::deque<gpu::FrameStream> frame_streams_;
 };
 
 }  // namespace tofray::backend

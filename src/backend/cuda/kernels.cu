@@ -77,7 +77,7 @@ __global__ void __launch_bounds__(threads) tofray_pixels(const __grid_constant__
   run_pixel<false>(common.setup, job, warp, patch, warp.lane);
 }
 
-/// The same where each frame has arguments of its own: each block takes its frame's into shared memory, with what the step has of its own.
+/// The kernel for frames that have arguments of their own: each block takes its frame's into shared memory, with what the step has of its own.
 template <int threads>
 __global__ void __launch_bounds__(threads) tofray_pixels_own(const Batch batch) {
   __shared__ FrameArguments mine;

@@ -17,7 +17,7 @@ struct Part {
   bool is_installed = false;  ///< a file is there, so that who put it there will want to know the reason
 };
 
-/// That of this build. (part_linked.cpp, part_apart.cpp or part_none.cpp)
+/// The part with device code of this build. (part_linked.cpp, part_apart.cpp or part_none.cpp)
 Part find_part();
 
 /// The library's name, and its two functions: the runtime, and whose it is.

@@ -195,7 +195,7 @@ TOFRAY_FN void run_unit(const pipeline::PassWork& work, int index) {
   }
 }
 
-/// The same array of a frame `bytes` further on.
+/// The place of an array in the frame that lies `bytes` further on.
 template <class T>
 TOFRAY_FN T* shifted(T* array, std::int64_t bytes) {
   return array == nullptr ? nullptr : reinterpret_cast<T*>(reinterpret_cast<char*>(array) + bytes);

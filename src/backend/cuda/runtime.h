@@ -65,9 +65,9 @@ class Runtime {
   virtual Status synchronize(void* stream) = 0;
   virtual Status elapsed(void* from, void* to, float& milliseconds) = 0;
 
-  /// What is asked of the stream from here on is not done but kept …
+  /// Begins to record: what is asked of the stream from here on is kept and not done.
   virtual Status begin_capture(void* stream) = 0;
-  /// … as a graph that can be launched.
+  /// Ends the record. @param graph  what was recorded, to be launched
   virtual Status end_capture(void* stream, void*& graph) = 0;
   virtual Status launch_graph(void* graph, void* stream) = 0;
 

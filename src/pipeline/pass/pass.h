@@ -27,8 +27,9 @@ enum class Over {
   raw_frames,  ///< one of them
 };
 
-constexpr int most_block_threads = 1024;  ///< of any block of a GPU
-constexpr int heavy_block_threads = 256;  ///< … of a kernel that takes more registers than such a block has for each
+constexpr int most_block_threads = 1024;  ///< threads in the largest block of a GPU
+constexpr int heavy_block_threads =
+    256;  ///< threads in the largest block of a kernel that takes more registers than a block of most_block_threads has for each
 
 constexpr std::int32_t of_filter = 1;  ///< `item` of the pass WriteDepth: it takes what the filter left
 

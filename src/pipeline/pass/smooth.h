@@ -15,7 +15,7 @@ constexpr int smoothed_side = 2 * smoothed_radius + 1;
 /// neighbour of another reflectivity ρ is as much of another brightness: ρ_p·Σ w·ρ_q·L_q/Σ w·ρ_q².
 template <class F>
 TOFRAY_FN void smoothing_weights(const flow::LightImage& image, const InRow& at, F* weight) {
-  const Guide<F> here = guide_near<F>(image, at, 0, 0);
+  const SurfaceGuide<F> here = guide_near<F>(image, at, 0, 0);
   F squares = F(0.0f);
   for (int i = 0; i < smoothed_side * smoothed_side; ++i) {
     const int dx = i % smoothed_side - smoothed_radius, dy = i / smoothed_side - smoothed_radius;
@@ -23,8 +23,8 @@ TOFRAY_FN void smoothing_weights(const flow::LightImage& image, const InRow& at,
     const float far = static_cast<float>(dx * dx + dy * dy), left = far < reach ? 1.0f - far / reach : 0.0f;
     weight[i] = F(0.0f);
     if (!(left > 0.0f) || at.y + dy < 0 || at.y + dy >= at.height) continue;
-    const Guide<F> there = guide_near<F>(image, at, dx, dy);
-    const F counts = num::select(is_within<F>(at, dx), F(left * left) * likeness(here, there), F(0.0f)) * there.reflectivity;
+    const SurfaceGuide<F> there = guide_near<F>(image, at, dx, dy);
+    const F counts = num::select(is_within<F>(at, dx), F(left * left) * similarity(here, there), F(0.0f)) * there.reflectivity;
     weight[i] = counts, squares = num::fma(counts, there.reflectivity, squares);
   }
   // A pixel that sees nothing, or what is black, keeps what it has.

@@ -28,13 +28,13 @@ struct Resident {
   DeviceMemory memory;
 };
 
-/// A stream of work on a GPU with memory for some frames. While one lane computes, the host fills or empties another.
-class Lane {
+/// A stream of work on a GPU with memory for some frames. While one stream computes, the host fills or empties another.
+class FrameStream {
  public:
-  Lane(const Device& device, int block_size);
-  ~Lane();
-  Lane(const Lane&) = delete;
-  Lane& operator=(const Lane&) = delete;
+  FrameStream(const Device& device, int block_size);
+  ~FrameStream();
+  FrameStream(const FrameStream&) = delete;
+  FrameStream& operator=(const FrameStream&) = delete;
 
   /// Bytes that each frame of a batch takes on the GPU beside its arrays.
   [[nodiscard]] static std::size_t input_bytes(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own);
@@ -47,9 +47,9 @@ class Lane {
   /// @return false where there is no room: submit what there is, begin anew
   bool add(const pipeline::Setup& setup, std::uint64_t index);
   /// Hands all frames to the GPU and does not wait.
-  /// @param output  device memory of slab().bytes() each; null: the lane's own, from where they go to host memory
+  /// @param output  device memory of slab().bytes() each; null: the stream's own, from where they go to host memory
   void submit(void* output = nullptr);
-  /// The same for a single frame as a graph, made anew only where arguments have changed.
+  /// Hands a single frame to the GPU as a graph, made anew only where arguments have changed.
   void submit_graph();
   void wait();
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/cuda/lane.h"
+#include "backend/cuda/frame_stream.h"
 
 #include <algorithm>
 #include <cstring>
@@ -77,15 +77,15 @@ std::size_t own_bytes(const Resident& resident, Own own, const pipeline::Setup& 
 
 }  // namespace
 
-Lane::Lane(const Device& device, int block_size)
+FrameStream::FrameStream(const Device& device, int block_size)
     : device_(device), block_size_(block_size), stream_(device.stream()), begin_(device.event()), end_(device.event()) {}
 
-Lane::~Lane() {
+FrameStream::~FrameStream() {
   if (submitted_) (void)device_.runtime().synchronize(stream_.get());  // memory must not go while the GPU works in it
 }
 
 /// The frame's arguments as the device sees them, with the scene that stays there.
-void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
+void FrameStream::write_arguments(const pipeline::Setup& setup, FrameArguments& out) const {
   out = {};
   out.setup = resident_->setup;
   out.setup.last_stage = setup.last_stage, out.setup.culling = setup.culling;
@@ -98,7 +98,7 @@ void Lane::write_arguments(const pipeline::Setup& setup, FrameArguments& out) co
   out.job.index_low = out.job.index_high = 0;  // frames have their numbers beside
 }
 
-void Lane::reserve_input(std::size_t bytes) {
+void FrameStream::reserve_input(std::size_t bytes) {
   if (bytes <= input_bytes_) return;
   graph_ = {}, input_bytes_ = 0;
   staged_ = {}, input_ = {};
@@ -106,7 +106,7 @@ void Lane::reserve_input(std::size_t bytes) {
   input_bytes_ = bytes;
 }
 
-void Lane::reserve_output() {
+void FrameStream::reserve_output() {
   const std::size_t bytes = std::max<std::size_t>(static_cast<std::size_t>(capacity_) * slab_.bytes(), 1);
   if (bytes <= output_bytes_) return;
   graph_ = {}, output_bytes_ = 0;
@@ -115,29 +115,29 @@ void Lane::reserve_output() {
   output_bytes_ = bytes;
 }
 
-void Lane::reserve_light(std::size_t bytes) {
+void FrameStream::reserve_light(std::size_t bytes) {
   if (bytes <= light_bytes_) return;
   light_bytes_ = 0, light_ = {}, light_of_ = {};
   light_ = device_.allocate(bytes);
   light_bytes_ = bytes;
 }
 
-void Lane::reserve_derived(std::size_t bytes) {
+void FrameStream::reserve_derived(std::size_t bytes) {
   if (bytes <= derived_bytes_) return;
   derived_bytes_ = 0, derived_ = {};
   derived_ = device_.allocate(bytes);
   derived_bytes_ = bytes;
 }
 
-std::size_t Lane::input_bytes(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own) {
+std::size_t FrameStream::input_bytes(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own) {
   if (own == Own::number) return sizeof(FrameNumber);
   flow::LightImage image;
   return sizeof(FrameNumber) + sizeof(FrameArguments) + own_bytes(resident, own, first) + derived_bytes(first.scene, own) +
          place_light(first, job.out, nullptr, nullptr, image);
 }
 
-void Lane::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
-                 const pipeline::Input* input) {
+void FrameStream::begin(const Resident& resident, const pipeline::Setup& first, const pipeline::Job& job, Own own, int capacity,
+                        const pipeline::Input* input) {
   device_.use();
   wait();
   resident_ = &resident;
@@ -169,7 +169,7 @@ void Lane::begin(const Resident& resident, const pipeline::Setup& first, const p
   used_ += align(packer.used());
 }
 
-bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
+bool FrameStream::add(const pipeline::Setup& setup, std::uint64_t index) {
   if (frames() == capacity_) return false;
   if (own_ != Own::number) {
     Packer packer(staged() + used_, input_memory() + used_);
@@ -185,13 +185,13 @@ bool Lane::add(const pipeline::Setup& setup, std::uint64_t index) {
   return true;
 }
 
-void Lane::start(const Launch& launch) const {
+void FrameStream::start(const Launch& launch) const {
   const Status status = device_.runtime().launch(launch, stream_.get());
   if (status != 0) device_.check(status, (std::string("starting the kernel ") + pipeline::name_of(launch.pass)).c_str());
 }
 
 /// Copies in, runs the kernels.
-void Lane::launch_all() {
+void FrameStream::launch_all() {
   Runtime& runtime = device_.runtime();
   Launch launch{pipeline::pass<pipeline::FromRays>, block_size_, &common_, {}, given_};
   launch.batch.numbers = reinterpret_cast<const FrameNumber*>(input_memory());
@@ -218,8 +218,8 @@ void Lane::launch_all() {
   });
 }
 
-/// The same on the host as kernels do it on the device, whose lenses the host cannot read.
-void Lane::take_step(const pipeline::Step& step, FrameArguments& arguments) const {
+/// A step's own arguments, on the host as kernels set them on the device, whose lenses the host cannot read.
+void FrameStream::take_step(const pipeline::Step& step, FrameArguments& arguments) const {
   if (own_ != Own::number) return;
   const camera::SubpixelView there = arguments.setup.subpixel;
   arguments.setup.subpixel.lens = resident_->sample_lenses.data(), arguments.setup.subpixel.share = resident_->shares.data();
@@ -228,7 +228,7 @@ void Lane::take_step(const pipeline::Step& step, FrameArguments& arguments) cons
 }
 
 /// Tells the frames where their arrays are, and copies what the host knows to where the GPU will fetch it.
-void Lane::place(void* base) {
+void FrameStream::place(void* base) {
   std::memcpy(staged(), numbers_.data(), numbers_.size() * sizeof(FrameNumber));
   common_.job.out = slab_.view(base), common_.job.scratch = slab_.scratch(base), common_.job.light = common_light_;
   for (int i = 0; i < frames() && own_ != Own::number; ++i) {
@@ -239,11 +239,11 @@ void Lane::place(void* base) {
 }
 
 /// Results to where the host sees them; there may be none.
-void Lane::copy_out(const void* base, std::size_t bytes, const char* doing) {
+void FrameStream::copy_out(const void* base, std::size_t bytes, const char* doing) {
   if (bytes > 0) device_.check(device_.runtime().copy(received_.get(), base, bytes, Way::to_host, stream_.get()), doing);
 }
 
-void Lane::submit(void* output) {
+void FrameStream::submit(void* output) {
   device_.use();
   Runtime& runtime = device_.runtime();
   if (output == nullptr) reserve_output();
@@ -258,7 +258,7 @@ void Lane::submit(void* output) {
   copy_out(base, static_cast<std::size_t>(frames()) * slab_.bytes(), "copying frames to the host");
 }
 
-void Lane::submit_graph() {
+void FrameStream::submit_graph() {
   device_.use();
   reserve_output();
   place(output_.get());
@@ -271,7 +271,7 @@ void Lane::submit_graph() {
   light_of_ = light_origin_;
 }
 
-void Lane::capture() {
+void FrameStream::capture() {
   Runtime& runtime = device_.runtime();
   const bool known = light_is_known();
   void* graph = nullptr;
@@ -292,13 +292,13 @@ void Lane::capture() {
   captured_known_ = known;
 }
 
-void Lane::wait() {
+void FrameStream::wait() {
   if (!submitted_) return;
   submitted_ = false;
   device_.check(device_.runtime().synchronize(stream_.get()), "computing frames");
 }
 
-double Lane::seconds() const {
+double FrameStream::seconds() const {
   if (!timed_) return 0;
   float milliseconds = 0;
   device_.check(device_.runtime().elapsed(begin_.get(), end_.get(), milliseconds), "reading the clock");
