@@ -52,9 +52,12 @@ class FrequencyResult:
         self.drift_m_per_kelvin = 0.0
         self.drift_error_m_per_kelvin = math.nan
         self.orders: list[int] = []
-        self.cos_rad = self.sin_rad = self.cos_error_rad = self.sin_error_rad = np.zeros(0)
-        self.pixel_phase_rad = np.zeros(shape)
-        self.pixel_phase_error_rad = np.full(shape, np.nan)
+        self.cos_rad: Any = np.zeros(0)
+        self.sin_rad: Any = np.zeros(0)
+        self.cos_error_rad: Any = np.zeros(0)
+        self.sin_error_rad: Any = np.zeros(0)
+        self.pixel_phase_rad: Any = np.zeros(shape)
+        self.pixel_phase_error_rad: Any = np.full(shape, np.nan)
         self.chi_square = math.nan
 
     def too_large_rad(self, measured_rad: Any) -> Any:

@@ -305,7 +305,7 @@ class Model:
         the light. The coefficients are those of 160 distances, over whose humps they go."""
         import numpy as np
 
-        got = self._budget(camera, np.geomspace(0.1, 40, 160).tolist(), reflectivity, ambient)
+        got = self._budget(camera, [float(distance) for distance in np.geomspace(0.1, 40, 160)], reflectivity, ambient)
         good = np.isfinite(got["sigma_m"]) & ~got["saturated"] & (got["amplitude_e"] > 0)
         brightest = int(np.argmax(np.where(good, got["amplitude_e"], 0)))
         good[:brightest] = False  # nearer, light leaves the pixel's view

@@ -164,7 +164,14 @@ TEST(recorded, frames_stand_beside_their_own_scene_from_the_start) {
   EXPECT_FALSE(of_a == made) << "side A has the filter";
   const Result wrong = run({"view", "out", "--beside", "nothing.yaml", "--test-hooks"}, here);
   EXPECT_TRUE(has(wrong.err, "nothing.yaml")) << wrong.err;
-  EXPECT_TRUE(has(run({"view", "out", "--beside", "s.yaml", "--export", "a.html"}, here).err, "of one side")) << wrong.err;
+}
+
+TEST(recorded, frames_beside_a_simulation_become_no_page_in_a_file) {
+  NEEDS_THE_VIEWER;
+  const Rendered rendered;
+  const Result made = run({"view", "out", "--beside", "demo", "--export", "a.html"}, in_folder(rendered.folder.path()));
+  if (has(made.err, "npm was not there")) GTEST_SKIP() << "built without npm";
+  EXPECT_TRUE(has(made.err, "of one side")) << made.err;
 }
 
 TEST(recorded, pixels_have_their_way_from_raw_frames) {
