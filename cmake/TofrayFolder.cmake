@@ -21,16 +21,21 @@ endif()
 # tofray_folder(name [COLD] [PART_OF core|files|none] [SOURCES file…] [USES folder…] [LIBRARIES target…] [HEADERS target…])
 #
 # One folder of src/ is one target, tofray_<name>, with an include root of its own: a link in the build tree that holds the folder
-# and nothing else. An include of a folder that is not named in USES therefore does not build.
+# and nothing else. An include of a folder that is not named in USES therefore does not build. A folder within a folder has a name with
+# a slash, a/b, and is the target tofray_a_b.
 #
 # PART_OF says which library has it: core is libtofray (unless another is named), files is libtofray_files; of none are the folders that
 # the command line and tests alone have. LIBRARIES are linked, and who links the library statically needs them, too; HEADERS are packages
 # of which nothing is linked. COLD is what reads, checks and writes and does nothing by pixel or by triangle: it takes TOFRAY_COLD_OPTIONS.
 function(tofray_folder name)
   cmake_parse_arguments(arg "COLD" "PART_OF" "SOURCES;USES;LIBRARIES;HEADERS" ${ARGN})
+  set(path ${name})
+  string(REPLACE "/" "_" name ${path})
   set(root ${CMAKE_BINARY_DIR}/roots/${name})
-  file(MAKE_DIRECTORY ${root})
-  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${name} SYMBOLIC)
+  cmake_path(GET path PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${root}/${parent})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${path} SYMBOLIC)
+  list(TRANSFORM arg_USES REPLACE "/" "_")
   list(TRANSFORM arg_USES PREPEND tofray_)
   if(arg_SOURCES)
     add_library(tofray_${name} OBJECT ${arg_SOURCES})

@@ -42,7 +42,7 @@ tofray_show_only(tofray_library ${CMAKE_SOURCE_DIR}/cmake/tofray.map)
 # The shared libtofray shows no internals, so the other one has what it needs of them once more; archives share them.
 set(shared_by_both "")
 if(BUILD_SHARED_LIBS)
-  set(shared_by_both tofray_base tofray_model tofray_camera)
+  set(shared_by_both tofray_base tofray_model tofray_camera_readout)
 endif()
 tofray_make_library(tofray_files_library files files ${shared_by_both})
 set_target_properties(tofray_files_library PROPERTIES OUTPUT_NAME tofray_files INSTALL_RPATH $ORIGIN)   # libtofray lies beside it

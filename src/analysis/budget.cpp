@@ -12,8 +12,8 @@
 #include "analysis/one_pixel.h"
 #include "analysis/pixel_budget.h"
 #include "base/constants.h"
-#include "camera/image_camera.h"
-#include "camera/lens.h"
+#include "camera/lens/lens.h"
+#include "camera/readout/image_camera.h"
 #include "simulator/exposure.h"
 #include "tofray/error.h"
 

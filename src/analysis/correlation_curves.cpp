@@ -4,8 +4,8 @@
 
 #include "base/calibration.h"
 #include "base/constants.h"
+#include "camera/decoder/wiggling.h"
 #include "camera/frozen_camera.h"
-#include "camera/wiggling.h"
 #include "tofray/error.h"
 #include "tofray/pixel.h"
 

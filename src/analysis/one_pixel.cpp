@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/one_pixel.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 
 #include <cmath>
 

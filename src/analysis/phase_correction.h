@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "camera/views.h"
+#include "camera/decoder/view.h"
 
 namespace tofray::analysis {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "camera/views.h"
+#include "camera/decoder/view.h"
 #include "tofray/pixel.h"
 
 namespace tofray::analysis {

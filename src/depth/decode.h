@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/late.h"
+#include "camera/pixel/pixel_delay.h"
 #include "depth/unwrap.h"
 #include "effect/nonlinearity.h"
 #include "tofray/flags.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/decoder/view.h"
 
 /// Which cycle: half paths from wrapped phases of one or more modulation frequencies.            [theory: eq. 4.4–4.7]
 namespace tofray::depth {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/text.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "files/json.h"
 #include "messages/parts.h"
 #include "tofray/error.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "camera/distort.h"
+#include "camera/lens/distort.h"
 #include "messages/parts.h"
 
 namespace tofray::messages {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "brdf/sample.h"
-#include "camera/ray.h"
+#include "camera/lens/ray.h"
 #include "num/sobol.h"
 #include "pipeline/alike.h"
 #include "pipeline/gather.h"

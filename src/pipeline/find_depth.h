@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/ray.h"
+#include "camera/lens/ray.h"
 #include "depth/confidence.h"
 #include "depth/decode.h"
 #include "pipeline/store.h"

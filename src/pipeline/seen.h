@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/image_motion.h"
+#include "camera/lens/image_motion.h"
 #include "pipeline/store.h"
 #include "shape/mesh_detail.h"
 #include "trace/nearest.h"

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/decoder/view.h"
+#include "camera/lens/view.h"
+#include "camera/light/view.h"
+#include "camera/pixel/view.h"
 #include "effect/list.h"
 #include "flow/frame_view.h"
 #include "flow/light_image.h"

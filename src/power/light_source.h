@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/light/view.h"
 
 /// Radiant intensity of a light source: I(θx, θy) = P·î, ∫î dω = 1.                                    [theory: eq. 2.1]
 namespace tofray::power {

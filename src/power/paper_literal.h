@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/views.h"
+#include "camera/light/view.h"
 
 /// The printed formula of "Time optimization for simulation of PMD 3D camera", for comparison only; docs/theory lists its faults.
 namespace tofray::power {

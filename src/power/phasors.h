@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/late.h"
+#include "camera/pixel/pixel_delay.h"
 
 /// Light as phasors: where every path ends, whatever it came by.                                            [theory: eq. 1.6]
 namespace tofray::power {

@@ -7,12 +7,12 @@
 /// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
 namespace tofray::raw {
 
-using camera::Noise;
 using effect::Chain;
 using effect::CodeReach;
 using effect::Effects;
 using effect::Exposure;
 using effect::held_to_codes;
+using effect::Noise;
 using effect::reach_of_codes;
 using effect::read_out;
 using flow::Taps;
@@ -24,7 +24,7 @@ TOFRAY_FN F pattern(const float* map, const flow::Pixels& p, float otherwise) {
 
 /// @param line_normals  as effect::LineNoise draws them, where it does
 template <class F>
-TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, const float* line_normals) {
+TOFRAY_FN Exposure<F> start(const effect::SensorView& s, const flow::Pixels& p, const float* line_normals) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
   e.lines = effect::LineNoise::lines_through(s, p, line_normals);
@@ -38,7 +38,7 @@ TOFRAY_FN Exposure<F> start(const camera::SensorView& s, const flow::Pixels& p, 
 /// Notes how far a lit raw frame went.
 /// @param most  charge of the tap that holds more
 template <class F>
-TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& frame, F most, const Taps<F>& taps, Exposure<F>& e) {
+TOFRAY_FN void watch(const effect::SensorView& s, const effect::RawFrameView& frame, F most, const Taps<F>& taps, Exposure<F>& e) {
   if (frame.lit == 0) return;
   e.most_charge = num::max(e.most_charge, most);
   e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));
@@ -46,7 +46,7 @@ TOFRAY_FN void watch(const camera::SensorView& s, const camera::RawFrameView& fr
 
 /// In a lit raw frame a tap clipped, or a code left the valid range: before the ADC held it to its ends, which may be valid codes.
 template <class F>
-TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
+TOFRAY_FN Mask<F> saturated(const effect::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
@@ -57,7 +57,7 @@ TOFRAY_FN Mask<F> saturated(const camera::SensorView& s, const Exposure<F>& e) {
 /// @param otherwise     A−B of the taps
 /// \tparam plain        as of expose
 template <bool plain, class F>
-TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
+TOFRAY_FN F known_difference(const effect::SensorView& s, const effect::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
                              F otherwise) {
   if (!plain && s.read.cell != nullptr) return otherwise;
   const auto whole = (most < F(s.full_well)) & (num::abs(rate) <= common);
@@ -68,7 +68,7 @@ TOFRAY_FN F known_difference(const camera::SensorView& s, const camera::RawFrame
 
 /// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
 template <class F>
-TOFRAY_FN void keep_dark_charge(const camera::SensorView& s, const camera::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
+TOFRAY_FN void keep_dark_charge(const effect::SensorView& s, const effect::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
   const Means<F> less = effect::TapMismatch::dark_less_in_gain(s, frame, e);
   charge.a = num::max(charge.a + less.a, F(0.0f)), charge.b = num::max(charge.b + less.b, F(0.0f));
 }
@@ -83,7 +83,7 @@ struct Expected {
 /// @param orders of the light's phasors
 /// \tparam plain true: the sensor has none of its effects, and there is no code for them
 template <bool plain, class F>
-TOFRAY_FN Expected<F> expected(const camera::SensorView& s, const camera::RawFrameView& frame, const Light<F>& light, int orders,
+TOFRAY_FN Expected<F> expected(const effect::SensorView& s, const effect::RawFrameView& frame, const Light<F>& light, int orders,
                                const Exposure<F>& e) {
   Expected<F> out;
   out.rates = {light.ambient_rate, frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f)};
@@ -96,7 +96,7 @@ TOFRAY_FN Expected<F> expected(const camera::SensorView& s, const camera::RawFra
 
 /// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.     [theory: eq. 3.35]
 template <class F>
-TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
+TOFRAY_FN F level_without_noise(const effect::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
   Chain<F> chain{expected<false>(s, s.frame[k], light, orders, e).charge, e.offset};
   effect::change_charge<false>(Effects{}, s, s.frame[k], k, {0, 0}, e, chain);
   effect::change_reading(Effects{}, s, chain.charge);
@@ -109,8 +109,8 @@ TOFRAY_FN F level_without_noise(const camera::SensorView& s, int k, const Light<
 /// @param light, orders  as of expected
 /// \tparam plain         likewise
 template <bool plain, class F>
-TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
-  const camera::RawFrameView frame = s.frame[k];
+TOFRAY_FN Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
+  const effect::RawFrameView frame = s.frame[k];
   const Expected<F> mean = expected<plain>(s, frame, light, orders, e);
   const F rate = mean.rates.difference, ambient_rate = mean.rates.ambient;
   Chain<F> chain{mean.charge, e.offset};
@@ -132,7 +132,7 @@ TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& lig
   return taps;
 }
 template <class F>
-TOFRAY_FN Taps<F> expose(const camera::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
+TOFRAY_FN Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   return s.effects != 0 ? expose<false>(s, k, light, orders, index, e) : expose<true>(s, k, light, orders, index, e);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "effect/list.h"
 #include "raw/correlation.h"
 
 /// Poisson counts and read noise, drawn apart.                                                   [theory: eq. 3.6, 3.10]
@@ -42,7 +43,7 @@ TOFRAY_FN F poisson_by_expansion(F mean, F z) {
 }
 
 template <class F>
-TOFRAY_FN Means<F> expose_apart(const camera::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
+TOFRAY_FN Means<F> expose_apart(const effect::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
   const num::Random4<F> words = draw<F>(s, pixel, k, frame, effect::shot_and_read);
   F shot_a, shot_b, read_a, read_b;
   num::normal_pair<F>(words.w[0], words.w[1], shot_a, shot_b);

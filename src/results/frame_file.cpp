@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "files/atomic_file.h"
 #include "results/array_table.h"
 #include "results/meta.h"

@@ -10,7 +10,7 @@
 
 #include "base/limits.h"
 #include "base/text.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "files/json.h"
 #include "files/npz.h"
 #include "tofray/error.h"

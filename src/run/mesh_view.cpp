@@ -13,7 +13,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "tofray/camera_report.h"
 
 namespace tofray::run {

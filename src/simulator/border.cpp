@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/frozen_scatter.h"
-#include "camera/image_camera.h"
+#include "camera/lens/frozen_scatter.h"
+#include "camera/readout/image_camera.h"
 
 namespace tofray::simulator {
 

@@ -9,7 +9,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "flow/flow.h"
 #include "model/check.h"
 #include "pipeline/rounds.h"

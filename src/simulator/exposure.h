@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "camera/views.h"
+#include "camera/pixel/view.h"
 #include "flow/frame_view.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "camera/frozen_camera.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "flow/flow.h"
 
 namespace tofray::simulator {

@@ -3,7 +3,7 @@
 #pragma once
 #include <string_view>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "flow/frame_view.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"

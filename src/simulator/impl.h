@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "camera/frozen_camera.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/border.h"
 #include "simulator/engines.h"

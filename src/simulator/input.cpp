@@ -10,7 +10,7 @@
 #include "base/readout.h"
 #include "base/text.h"
 #include "camera/frozen_camera.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "model/tables.h"
 #include "simulator/check.h"
 #include "simulator/checks.h"

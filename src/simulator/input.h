@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "pipeline/enter.h"
 #include "simulator/histogram.h"
 #include "tofray/camera.h"

@@ -4,7 +4,7 @@
 #include "base/readout.h"
 #include "base/recording.h"
 #include "camera/frozen_camera.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
 #include "simulator/engines.h"

@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "base/srgb.h"
 #include "base/text.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "flow/flow.h"
 #include "model/tables.h"
 #include "simulator/check.h"

@@ -6,8 +6,8 @@
 
 #include "base/calibration.h"
 #include "base/constants.h"
-#include "camera/emitters.h"
-#include "camera/image_camera.h"
+#include "camera/light/emitters.h"
+#include "camera/readout/image_camera.h"
 #include "scene/ambient.h"
 #include "simulator/check.h"
 #include "simulator/filter.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "depth/confidence.h"
 #include "depth/temporal.h"
 #include "pipeline/pass/write_depth.h"

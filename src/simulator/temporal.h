@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "pipeline/setup.h"
 #include "tofray/camera.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/area_points.h"
-#include "camera/emitters.h"
+#include "camera/light/area_points.h"
+#include "camera/light/emitters.h"
 #include "support/pi.h"
 #include "tofray/tofray.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 // Projection and distortion, there and back; beyond the model nothing is made up.
-#include "camera/lens.h"
+#include "camera/lens/lens.h"
 
 #include <gtest/gtest.h>
 

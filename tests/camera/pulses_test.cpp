@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/periodic.h"
-#include "camera/waveform.h"
+#include "camera/pixel/waveform.h"
 #include "support/pi.h"
 #include "tofray/tofray.h"
 

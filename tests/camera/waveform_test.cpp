@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "camera/waveform.h"
+#include "camera/pixel/waveform.h"
 
 #include <gtest/gtest.h>
 

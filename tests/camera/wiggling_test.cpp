@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "camera/wiggling.h"
+#include "camera/decoder/wiggling.h"
 
 #include <gtest/gtest.h>
 

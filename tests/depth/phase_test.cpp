@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "camera/wiggling.h"
+#include "camera/decoder/wiggling.h"
 #include "support/bench.h"
 
 using namespace tofray;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "load/builtin.h"
 #include "support/pixels.h"
 #include "support/sanitizers.h"

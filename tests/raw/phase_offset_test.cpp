@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "camera/late.h"
+#include "camera/pixel/pixel_delay.h"
 #include "support/bench.h"
 #include "tofray/tofray.h"
 

@@ -11,7 +11,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "base/vec.h"
-#include "camera/emitters.h"
+#include "camera/light/emitters.h"
 #include "support/pixels.h"
 #include "support/random_scene.h"
 #include "support/same_frame.h"

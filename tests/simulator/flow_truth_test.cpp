@@ -5,8 +5,8 @@
 
 #include <bit>
 
-#include "camera/image_motion.h"
-#include "camera/lens.h"
+#include "camera/lens/image_motion.h"
+#include "camera/lens/lens.h"
 #include "support/random.h"
 #include "support/random_scene.h"
 #include "support/turning.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "camera/distort.h"
+#include "camera/lens/distort.h"
 #include "support/pixels.h"
 #include "tofray/tofray.h"
 

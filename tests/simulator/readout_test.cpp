@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "support/pixels.h"
 #include "support/same_frame.h"
 #include "support/statistics.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/vec.h"
-#include "camera/emitters.h"
+#include "camera/light/emitters.h"
 #include "support/pixels.h"
 #include "support/same_frame.h"
 #include "tofray/tofray.h"

@@ -6,7 +6,7 @@
 
 #include "backend/cpu/cpu.h"
 #include "camera/frozen_camera.h"
-#include "camera/subpixel.h"
+#include "camera/lens/subpixel.h"
 #include "support/cuda_cases.h"
 #include "support/pixels.h"
 #include "support/random_scene.h"

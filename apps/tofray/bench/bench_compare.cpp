@@ -8,7 +8,7 @@
 #include "backend/cpu/cpu.h"
 #include "base/readout.h"
 #include "bench/bench.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "cli/progress.h"
 #include "cli/requests.h"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/remarks.h"

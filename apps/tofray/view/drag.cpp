@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/drag.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 
 #include <fmt/core.h>
 
@@ -17,7 +17,7 @@
 #include "base/readout.h"
 #include "base/rotation.h"
 #include "base/text.h"
-#include "camera/lens.h"
+#include "camera/lens/lens.h"
 #include "scene/motion.h"
 #include "tofray/error.h"
 #include "tofray/simulator.h"

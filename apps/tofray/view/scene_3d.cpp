@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/scene_3d.h"
-#include "camera/image_camera.h"
+#include "camera/readout/image_camera.h"
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "analysis/stand.h"
 #include "base/readout.h"
 #include "base/vec.h"
-#include "camera/lens.h"
+#include "camera/lens/lens.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
 #include "view/answer_arrays.h"

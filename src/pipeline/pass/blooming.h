@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "camera/ray.h"
+#include "camera/lens/ray.h"
 #include "pipeline/pass/pass.h"
 #include "pipeline/store.h"
 
