@@ -88,9 +88,9 @@ bool turns(const Object& object) { return !object.keyframes.empty() || length(ob
 
 }  // namespace
 
-FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces) : scene_(scene) {
+FrozenScene::FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces, int threads) : scene_(scene) {
   for (const Vec3& light : lights) lights_.push_back(vec(light));
-  add_bodies(moments);
+  add_bodies(moments, threads);
   add_materials(scene.materials);
   view_.moments = moves_ ? moments : 0;
   view_.lights = static_cast<std::int32_t>(lights_.size());
@@ -159,10 +159,10 @@ void FrozenScene::cut_out(const std::vector<int>& map_of_material) {
 }
 
 template <class T, class Said>
-T FrozenScene::placed(const Said& said, const shape::Placement& at) {
+T FrozenScene::placed(const Said& said, const shape::Placement& at, [[maybe_unused]] int threads) {
   if constexpr (shape::many_of<T>) {
     std::shared_ptr<const Hierarchy>& hierarchy = hierarchies_[said.triangles];
-    if (hierarchy == nullptr) hierarchy = shared_hierarchy(*said.triangles);
+    if (hierarchy == nullptr) hierarchy = shared_hierarchy(*said.triangles, threads);
     if (!hierarchy->details.empty()) view_.any_details = 1;
     return T::placed(*hierarchy, at);
   } else {
@@ -192,7 +192,7 @@ std::vector<std::int32_t> classes_of(const Scene& scene) {
 
 }  // namespace
 
-void FrozenScene::add_bodies(int moments) {
+void FrozenScene::add_bodies(int moments, int threads) {
   const bool camera_moves = !scene_.camera.keyframes.empty();
   moves_ = camera_moves;
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -203,7 +203,7 @@ void FrozenScene::add_bodies(int moments) {
     add_body(shape::Shapes{}, object.shape, moving ? moving_ : still_, [&]<class T, class Said>(shape::List<T>, const Said& said) {
       if (moving) movers_.push_back({i, T::center_of(said) + at.shift});
       const auto mover = static_cast<std::int32_t>(moving ? movers_.size() - 1 : 0) - (moving ? 0 : 1);
-      return Body<T>{placed<T>(said, at), mover, 0, static_cast<std::int32_t>(i), object.material};
+      return Body<T>{placed<T>(said, at, threads), mover, 0, static_cast<std::int32_t>(i), object.material};
     });
     add_changing(i);
   }

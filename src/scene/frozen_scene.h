@@ -40,7 +40,8 @@ class FrozenScene {
   /// @param moments    at which a frame looks at what moves
   /// @param scene      stays where it is
   /// @param bounces    rays leave from anywhere, too
-  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces = false);
+  /// @param threads    that put boxes around large meshes; 0: one per core
+  FrozenScene(const Scene& scene, const std::vector<Vec3>& lights, int moments, bool bounces = false, int threads = 0);
   FrozenScene(const FrozenScene&) = delete;
   FrozenScene& operator=(const FrozenScene&) = delete;
 
@@ -74,7 +75,7 @@ class FrozenScene {
   struct ChangingBody {
     std::size_t body, object, which;  ///< among the moving meshes, the scene's objects, and `changing_`
   };
-  void add_bodies(int moments);
+  void add_bodies(int moments, int threads);
   void add_changing(std::size_t object);
   void add_materials(const std::vector<Material>& materials);
   /// The first of what make() makes of a picture, once for all materials that share it and what of it is cut out.
@@ -83,7 +84,7 @@ class FrozenScene {
   void cut_out(const std::vector<int>& map_of_material);
   /// The shape in the world.
   template <class T, class Said>
-  T placed(const Said& said, const shape::Placement& at);
+  T placed(const Said& said, const shape::Placement& at, int threads);
   void lay_out();
   void look_for_sun(const CameraFrame& at_truth);
   void place_movers();

@@ -20,15 +20,12 @@ struct Hierarchy {
   shape::Vec center{}, half{};              ///< of the box round all of them
 };
 
-/// Boxes of up to eight children each, cut where the surface area heuristic says (Wald 2007, in 16 bins): the larger a box, the more rays
-/// come by it, the fewer triangles it should hold. What a ray hits does not depend on where the cuts are. One thread; the same on every
-/// machine.
-///
-/// Time grows as n·log n, the depth is below shape::most_mesh_levels whatever the triangles.
-Hierarchy build_hierarchy(const TriangleMesh& mesh);
+/// Boxes around a mesh's triangles (scene/box_tree.h), and these in blocks. What a ray hits does not depend on where the boxes are cut.
+/// @param threads  at most; 0: one per core
+Hierarchy build_hierarchy(const TriangleMesh& mesh, int threads = 0);
 
 /// The one for all meshes with the same contents
-std::shared_ptr<const Hierarchy> shared_hierarchy(const TriangleMesh& mesh);
+std::shared_ptr<const Hierarchy> shared_hierarchy(const TriangleMesh& mesh, int threads);
 
 /// A hierarchy with its boxes fitted to the same triangles, whose vertices have moved.
 /// @param from  was built of the same triangles

@@ -79,7 +79,7 @@ Simulator::Impl::Impl(const Scene& all, const Camera& given, const SimulatorOpti
       options(with_last_stage(wanted, camera, scene)),
       frozen_camera(base::with_offsets(profile), wanted.noise != Noise::off, wanted.seed, wanted.subpixel, wanted.threads),
       frozen_scene(scene, positions(camera), static_cast<int>(camera.mode.sequence.size()) * options.exposure_samples,
-                   scene.transport.bounces > 0),
+                   scene.transport.bounces > 0, wanted.threads),
       setup(fixed_setup()),
       temporal(camera, options.last_stage),
       exposure(camera, options.last_stage),

@@ -112,6 +112,22 @@ TEST(in_parallel, calls_each_unit_once_whatever_the_threads) {
   EXPECT_EQ(one_thread, std::vector(3, std::this_thread::get_id()));
 }
 
+TEST(in_parallel, throws_what_a_unit_throws_when_all_have_ended) {
+  for (const int threads : {1, 2, 7}) {
+    std::atomic<int> inside = 0, begun = 0;
+    const auto unit = [&](int i) {
+      ++begun, ++inside;
+      if (i == 40) --inside, throw std::bad_alloc();
+      --inside;
+    };
+    EXPECT_THROW(in_parallel(100'000, threads, unit), std::bad_alloc) << threads << " threads";
+    EXPECT_EQ(inside, 0);
+    if (threads == 1) {
+      EXPECT_EQ(begun, 41);
+    }
+  }
+}
+
 TEST(contents, differ_where_a_bit_a_length_or_a_place_differs) {
   const auto of = [](const std::vector<float>& a, const std::vector<float>& b) {
     Content out;

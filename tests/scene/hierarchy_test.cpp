@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 
 #include "support/meshes.h"
 #include "support/random.h"
+#include "support/sanitizers.h"
 
 using namespace tofray;
 using namespace tofray::test;
@@ -121,6 +123,33 @@ TEST(hierarchy, is_good_for_triangles_of_any_size_and_place) {
       return Crumb{{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])},
                    static_cast<float>(random.scale(1e-30, 1e5))};
     }));
+  }
+}
+
+// Three heaps far apart, of which one has most triangles: each box is about one of them.
+TEST(hierarchy, is_cut_where_nothing_is) {
+  Random random(5);
+  const scene::Hierarchy built = scene::build_hierarchy(crumbs(700, [&](int i) {
+    const float heap = i < 500 ? 0.0F : i < 600 ? 100.0F : 250.0F;
+    return Crumb{{heap + float_of(random), float_of(random), float_of(random)}, 0.1F};
+  }));
+  const shape::MeshNode& root = built.nodes[0];
+  for (int i = 0; i < root.children; ++i) EXPECT_LT(root.high[0][i] - root.low[0][i], 10) << i;
+}
+
+TEST(hierarchy, is_the_same_with_any_number_of_threads) {
+  Random random(6);
+  const TriangleMesh mesh = crumbs(with_sanitizers ? 210'000 : 300'000, [&](int) {
+    return Crumb{{float_of(random), float_of(random), float_of(random)}, 0.01F};
+  });
+  const scene::Hierarchy one = scene::build_hierarchy(mesh, 1);
+  check(mesh, one);
+  for (const int threads : {2, 7}) {
+    const scene::Hierarchy other = scene::build_hierarchy(mesh, threads);
+    ASSERT_EQ(other.nodes.size(), one.nodes.size());
+    ASSERT_EQ(other.triangles.size(), one.triangles.size());
+    EXPECT_EQ(std::memcmp(other.nodes.data(), one.nodes.data(), one.nodes.size() * sizeof one.nodes[0]), 0);
+    EXPECT_EQ(std::memcmp(other.triangles.data(), one.triangles.data(), one.triangles.size() * sizeof one.triangles[0]), 0);
   }
 }
 
