@@ -214,7 +214,7 @@ TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pix
   const float share =
       (s.subpixel.lens != nullptr ? s.subpixel.share[paths.sample] : 1.0f) / (static_cast<float>(paths.all) * static_cast<float>(per_time));
   for (int time = 0; time < image.times; ++time) {
-    const Moment now = moment_of(s, time * per_time, moments);
+    const Moment now = moment_of(s, time * per_time, moments, false);
     const power::Wanted which = wanted(s, now, false);
     flow::Light<F> half[2];
     power::clear(s.phasors, which, half[0]), power::clear(s.phasors, which, half[1]);

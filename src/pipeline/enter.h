@@ -144,7 +144,7 @@ TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::Lig
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
     const int time = by_frame ? k : 0;
     if (by_frame || k == 0) {
-      const power::Wanted which = wanted(s, {k, by_frame ? k + 1 : s.sensor.raw_frames, time, 0, 1, false}, !by_frame);
+      const power::Wanted which = wanted(s, {k, by_frame ? k + 1 : s.sensor.raw_frames, time, 0, 1, false, !by_frame}, !by_frame);
       load_light(s, image.before, p, image.times, time, light);
       light.ambient_rate = num::load<F>(image.values + light_place(s, p, image.times, time, 1), p.count);
       if (s.sensor.delay != nullptr) power::delay_by(s.phasors, which, s.sensor, p, light);
@@ -160,6 +160,7 @@ class ArraySource {
   TOFRAY_FN ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
 
   TOFRAY_FN int moments() const { return in_.moments; }
+  static constexpr bool once() { return false; }
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }

@@ -76,6 +76,36 @@ TOFRAY_FN void gather_light(const Setup& s, const Growing& image, const Pixels& 
   gather_planes<F>(s, image, p, light_place(s, p, times, time, 0), values, planes, how);
 }
 
+/// The first raw frame to which light that stays the same is what it is to raw frame number `time`: of the same modulation frequency.
+TOFRAY_FN int first_alike(const Setup& s, int time) {
+  const effect::RawFrameView& frame = s.sensor.frame[time];
+  int k = 0;
+  while ((s.sensor.frame[k].lit != 0) != (frame.lit != 0) || (frame.lit != 0 && s.sensor.frame[k].modulation != frame.modulation)) ++k;
+  return k;
+}
+
+/// Adds a share of a light that is the same at all times to the image.
+/// @param once  to the first raw frame of each modulation frequency alone: spread_alike does the rest, once all samples are there
+template <class F>
+TOFRAY_FN void gather_all_times(const Setup& s, const Growing& image, const Pixels& p, int times, const flow::Light<F>& light,
+                                const Adding<F>& how, bool once) {
+  for (int time = 0; time < times; ++time)
+    if (!once || first_alike(s, time) == time) gather_light<F>(s, image, p, times, time, light, how);
+}
+
+/// Gives all raw frames the light of the first one of their modulation frequency.
+template <class F>
+TOFRAY_APART void spread_alike(const Setup& s, float* values, const Pixels& p, int times) {
+  const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
+  for (int time = 0; time < times; ++time) {
+    const int first = first_alike(s, time), planes = s.sensor.frame[time].lit != 0 ? light_planes(s, times) : 2;
+    if (first == time) continue;
+    std::int64_t from = light_place(s, p, times, first, 0), to = light_place(s, p, times, time, 0);
+    for (int plane = 0; plane < planes; ++plane, from += pixels, to += pixels)
+      num::store(values + to, num::load<F>(values + from, p.count), p.count);
+  }
+}
+
 /// Values of all planes at all times.
 TOFRAY_FN std::int64_t light_values(const Setup& s, int times) {
   return std::int64_t{times} * light_planes(s, times) * s.lens.width * s.lens.height;

@@ -15,13 +15,18 @@ struct Moment {
   int index;            ///< what moves is where it is at this time
   int sample, samples;  ///< which one of so many times within each exposure
   bool truth;           ///< ground truth is that of this moment
+  bool whole;           ///< it is the only one: all that is seen is the same at all times of the frame
 };
 
+/// Times at which an exposure sees what moves.
+TOFRAY_FN int times_within_exposure(const Setup& s) { return s.scene.moments > 0 ? s.scene.moments / s.sensor.raw_frames : 1; }
+
 /// @param moments  1, or as many for each raw frame. The truth is that of the middle of the middle one.
-TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments) {
-  if (moments == 1) return {0, s.sensor.raw_frames, 0, 0, 1, true};
+/// @param blurs    whether the light of an exposure is a mean over its times also where there is one moment for all
+TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments, bool blurs) {
+  if (moments == 1) return {0, s.sensor.raw_frames, 0, 0, blurs ? times_within_exposure(s) : 1, true, true};
   const int samples = moments / s.sensor.raw_frames, frame = moment / samples, sample = moment % samples;
-  return {frame, frame + 1, moment, sample, samples, frame == s.sensor.raw_frames / 2 && sample == samples / 2};
+  return {frame, frame + 1, moment, sample, samples, frame == s.sensor.raw_frames / 2 && sample == samples / 2, false};
 }
 
 /// Which of the scene's moments that is.

@@ -16,6 +16,7 @@
 /// later with arrays of their own. What differs is a `Walk`, which knows which pixels there are and finds their light:
 ///
 ///     moments()                     times at which the scene is looked at: 1, or as many for each raw frame
+///     once()                        whether light of one moment for all is kept for the first of the raw frames to which it is alike
 ///     go_to(now)                    what can be seen, and what can throw a shadow, at one of them
 ///     packs(), pixels(q)            the pixels, in packs that are computed at once
 ///     ahead(q)                      those that come after pack q, whose memory may be fetched meanwhile; count 0: none
@@ -55,16 +56,22 @@ TOFRAY_FN bool find_light(const Setup& s, const Job& job, Walk& walk, const Mome
   if (anew && s.sensor.delay != nullptr && job.gather.on == 0)
     power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), s.sensor, view.p, pack.light);
   if (!is_averaged<Walk>(now)) return true;
-  power::blend(s.phasors, wanted(s, now, false), pack.light, now.sample, now.samples, walk.mean(q));
-  return now.sample + 1 == now.samples;
+  // Light that is the same at all times is a mean of itself, which rounding leaves a last bit beside it.
+  const int end = now.whole ? now.samples : now.sample + 1;
+  for (int i = now.sample; i < end; ++i) power::blend(s.phasors, wanted(s, now, false), pack.light, i, now.samples, walk.mean(q));
+  return end == now.samples;
 }
 
 /// What a sample within the pixels adds to the light image, or all of them at once.
 template <class F>
-TOFRAY_FN void gather(const Setup& s, const Job& job, int time, const Pixels& p, const flow::Light<F>& light) {
-  const num::Mask<F> every = F(0.0f) < F(1.0f);
-  gather_light<F>(s, {job.light.before, job.light.values}, p, job.light.times, time, light,
-                  {job.gather.share, job.gather.first != 0, 1.0f, every});
+TOFRAY_FN void gather(const Setup& s, const Job& job, const Moment& now, bool once, const Pixels& p, const flow::Light<F>& light) {
+  const Growing image{job.light.before, job.light.values};
+  const Adding<F> how{job.gather.share, job.gather.first != 0, 1.0f, F(0.0f) < F(1.0f)};
+  if (now.whole && job.light.times > 1) {
+    gather_all_times<F>(s, image, p, job.light.times, light, how, once);
+  } else {
+    gather_light<F>(s, image, p, job.light.times, now.whole ? 0 : now.first, light, how);
+  }
 }
 
 /// Stages 3 and 4: raw frames of the moment, and depth after the last of them.
@@ -93,7 +100,7 @@ template <class F, class Walk>
 TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
   const int moments = walk.moments();
   for (int moment = 0; moment < moments; ++moment) {
-    const Moment now = moment_of(s, moment, moments);
+    const Moment now = moment_of(s, moment, moments, Walk::blurs);
     if (!is_wanted(s, job, now)) continue;
     walk.go_to(now);
     for (int q = 0; q < walk.packs(); ++q) {
@@ -105,7 +112,7 @@ TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
       if (!find_light(s, job, walk, now, q, view, pack)) continue;  // stages 1 and 2
       const flow::Light<F>& light = is_averaged<Walk>(now) ? walk.mean(q) : pack.light;
       if (job.gather.on != 0) {
-        gather<F>(s, job, moments == 1 ? 0 : now.first, p, light);
+        gather<F>(s, job, now, walk.once(), p, light);
       } else {
         expose(s, job, walk, now, q, view, light, pack);  // stages 3 and 4
       }

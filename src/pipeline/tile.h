@@ -156,6 +156,7 @@ struct alignas(64) Scratch {
   TilePoints points;
   alignas(64) trace::TileRays::Array changed;  ///< pixels that do not see what stands still
   trace::TileSquares squares;
+  bool once;  ///< the samples so far of a tile where nothing moves were added to the light of the first raw frames alone
 };
 
 template <class F, bool can_move>
@@ -180,9 +181,18 @@ class TileWalk {
     }
     see_at_once(scratch.near.camera_still, scratch.still);
     scratch.near.has_shades = trace::any_mesh(s.scene) || trace::any_clusters(s.scene);
+    if constexpr (can_move) {
+      calm_ = is_calm();
+      begin_sample();
+    }
   }
 
-  TOFRAY_FN int moments() const { return can_move ? s_.scene.moments : 1; }
+  TOFRAY_FN int moments() const { return can_move && !calm_ ? s_.scene.moments : 1; }
+  TOFRAY_FN bool once() const { return can_move && scratch_.once; }
+  /// What is left to do once all pixels of the tile have their light.
+  TOFRAY_FN void end() {
+    if (can_move && once() && job_.gather.ends != 0) spread(job_.light.values);
+  }
   TOFRAY_FN int packs() const { return max_packs<F>; }
   TOFRAY_FN Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }
   TOFRAY_FN Pixels ahead(int q) const {
@@ -202,14 +212,10 @@ class TileWalk {
     if (s_.last_stage < Stage::power) return;
     shade_what_stands_still(now.index);
     look_from_lights(now.index, hits_);
-    for (int l = 0; can_move && l < s_.scene.lights; ++l) {
-      trace::cull<F>(s_.scene.light_moving(now.index, l), scratch_.seen.of(l), scratch_.near.marks, scratch_.near.light_moving[l]);
+    if constexpr (can_move) {
+      find_moving_shades(now.index);
+      shade_what_is_seen(now.index);
     }
-    if (can_move && has_sun()) {
-      trace::cull<F>(s_.scene.sun_moving(now.index), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks,
-                     scratch_.near.sun_moving);
-    }
-    if constexpr (can_move) shade_what_is_seen(now.index);
   }
 
   TOFRAY_FN bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) {
@@ -219,6 +225,46 @@ class TileWalk {
 
  private:
   TOFRAY_FN bool has_sun() const { return s_.power.ambient == camera::AmbientLight::directional; }
+  /// Whether nothing that moves is in view at any moment, and nothing that moves can come before a light: then one moment is as good as all.
+  TOFRAY_FN bool is_calm() {
+    if (job_.out.gt_phase_flow_px != nullptr) return false;
+    for (int m = 0; m < s_.scene.moments; ++m) {
+      trace::cull<F>(s_.scene.camera_moving(m), view_, scratch_.near.marks, scratch_.near.camera_moving);
+      if (!scratch_.near.camera_moving.empty()) return false;
+    }
+    if (s_.last_stage < Stage::power) return true;
+    look_from_lights(0, scratch_.still);
+    for (int m = 0; m < s_.scene.moments; ++m) {
+      find_moving_shades(m);
+      if (scratch_.near.can_be_shaded(s_)) return false;
+    }
+    return true;
+  }
+  /// A tile's samples are added one after the other. As long as all of them were calm, the first raw frame of each modulation frequency has
+  /// the light of all.
+  TOFRAY_FN void begin_sample() {
+    const bool many = job_.gather.on != 0 && job_.light.times > 1;
+    if (job_.gather.begins != 0 || !many) scratch_.once = many && calm_ && job_.gather.first != 0;
+    if (!scratch_.once || calm_) return;
+    spread(job_.light.before);
+    scratch_.once = false;
+  }
+  TOFRAY_FN void spread(float* values) {
+    for (int q = 0; q < packs(); ++q) {
+      const Pixels p = pixels(q);
+      if (p.count > 0) spread_alike<F>(s_, values, p, job_.light.times);
+    }
+  }
+  /// What moves and can come between a light and what the pixels see.
+  TOFRAY_FN void find_moving_shades(int moment) {
+    for (int l = 0; l < s_.scene.lights; ++l) {
+      trace::cull<F>(s_.scene.light_moving(moment, l), scratch_.seen.of(l), scratch_.near.marks, scratch_.near.light_moving[l]);
+    }
+    if (has_sun()) {
+      trace::cull<F>(s_.scene.sun_moving(moment), s_.culling != 0 ? &scratch_.seen.sun : nullptr, scratch_.near.marks,
+                     scratch_.near.sun_moving);
+    }
+  }
   /// Where nothing that moves is in view, the tile sees what stands still.
   TOFRAY_FN void see_what_moves(int moment) {
     hits_ = scratch_.still;
@@ -311,6 +357,7 @@ class TileWalk {
   const flow::Hit<F>* seen_from_lights_ = nullptr;  // near.light_still and `seen` are those of these hits
   const flow::Hit<F>* points_of_ = nullptr;
   bool still_is_shaded_ = false;
+  bool calm_ = false;
   Pack<F> here_;
 };
 
@@ -319,6 +366,7 @@ template <class F, bool can_move>
 TOFRAY_FN void one_tile(const Setup& s, const Job& job, int index, void* scratch) {
   TileWalk<F, can_move> walk(s, job, index, *static_cast<Scratch<F, can_move>*>(scratch));
   run_pipeline<F>(s, job, walk);
+  walk.end();
 }
 
 }  // namespace tofray::pipeline

@@ -153,6 +153,7 @@ void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::
       if (stopped()) return void(gave_up_ = true);
       pipeline::Job own_job = job;
       pipeline::take_step(step, own_setup, own_job);
+      own_job.gather.begins = &step == &steps.front(), own_job.gather.ends = &step == &steps.back();
       const Work work{&own_setup, &own_job, nullptr, step.item};
       kernel_(&work, step.pass, index, scratch);
       if (progress_ != nullptr) progress_->done += rays_of(step, own_setup);

@@ -142,6 +142,7 @@ class PixelWalk {
   }
 
   TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.scene.moments : 1; }
+  static constexpr bool once() { return false; }
   TOFRAY_FN int packs() const { return 1; }
   TOFRAY_FN Pixels pixels(int) const { return pixels_; }
   TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
