@@ -195,6 +195,13 @@ Vec center_of(const Object& object) {
   return out;
 }
 
+ObjectPose gone_by(const Object& object, double time_s) {
+  const scene::Motion motion = scene::motion_at(object, {0, 0, 0}, time_s);
+  return {motion.shift, motion.turn};
+}
+
+shape::Mat turn_about(const Vec3& axis, double angle_rad) { return scene::rotation_matrix({axis, angle_rad}); }
+
 ObjectPose pose_of(const Object& object, double time_s) {
   ObjectPose out;
   with_shape(shape::Shapes{}, object.shape, [&]<class Shape, class Said>(shape::List<Shape>, const Said& said) {

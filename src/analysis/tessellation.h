@@ -20,6 +20,10 @@ struct ObjectPose {
   shape::Mat turn{};
 };
 ObjectPose pose_of(const Object& object, double time_s);
+/// How an object has turned and how far it has gone at a time by its velocities alone, whatever its placement and centre.
+ObjectPose gone_by(const Object& object, double time_s);
+/// The turn about an axis.
+shape::Mat turn_about(const Vec3& axis, double angle_rad);
 /// What an object turns about, before it is placed: of a sphere its center.
 Vec center_of(const Object& object);
 

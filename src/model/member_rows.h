@@ -20,8 +20,8 @@ struct MemberRow {
   std::string key;                     ///< in files, dotted; empty: files have no such key
   std::string doc;                     ///< may be empty
   std::string group;                   ///< the line of the map that the key is in; empty: it is in the struct's own
-  std::string tag;                     ///< where the row is of some kinds alone: the member that says which …
-  std::vector<int> kinds;              ///< … and its values
+  std::string tag;                     ///< where the row is of some kinds alone: the member that says which
+  std::vector<int> kinds;              ///< of such a row: values of `tag` for which it is there
   bool may_be_absent;                  ///< in files, where `doc` then says what holds
   std::vector<MemberNumbers> numbers;  ///< none of words and structs; two of a curve in one member; else one
 };

@@ -127,7 +127,7 @@ TOFRAY_FN F sinc_turns(F t) {
   return sine / (held * F(6.28318531f));
 }
 
-/// The same of a modulation frequency that is swept over a band of width Δf: the mean over it is e^{imφ}·sinc(m·Δf·ℓ/c), φ at its middle.
+/// Adds the harmonics of a modulation frequency that is swept over a band of width Δf: the mean over it is e^{imφ}·sinc(m·Δf·ℓ/c), φ at its middle.
 ///                                                                                                        [theory: eq. 3.30]
 template <bool first, class F>
 TOFRAY_APART void add_swept_turns(const camera::ModulationView& modulation, int orders, const float* source, const Path<F>& path, F* real,

@@ -279,7 +279,7 @@ TOFRAY_FN void search_tile(const MeshForm& form, TileRays& rays) {
   }
 }
 
-/// … or that go to the sun.
+/// Searches a mesh for rays of a tile that go to the sun.
 template <bool any, class F>
 TOFRAY_FN void search_tile(const MeshAlong& form, TileRays& rays) {
   each_square([&](int at) __attribute__((always_inline)) { search_square_alone<any, num::Square<F>>(form, rays, at); });

@@ -152,7 +152,7 @@ TOFRAY_APART Mask<F> blocked_anywhere(const scene::Group& group, int moment, con
   const Asking<F> asking{group, moment, {F(at[0]), F(at[1]), F(at[2]), ray.x, ray.y, ray.z}, F(1.0f), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, ray, p);
 }
-/// … and from the sun. [as blocked_parallel]
+/// Where something stands between a place anywhere and the sun. [as blocked_parallel]
 template <class F>
 TOFRAY_APART Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
                                                const Place<F>& p) {

@@ -48,7 +48,7 @@ struct PickedForms {
   std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not
   TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
 };
-/// … and as parallel light does.
+/// Which forms of a shape parallel light can meet.
 template <class T>
 struct PickedAlongs {
   using Form = typename T::Along;
@@ -244,8 +244,8 @@ TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const 
   to.picked = out;
 }
 
-/// … on the screen of parallel light: the points of a tile are at many depths, and the rectangle that holds them there holds much that is
-/// before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
+/// Whether anything of a group is before a rectangle on the screen of parallel light. The points of a tile are at many depths, and the
+/// rectangle that holds them there holds much that is before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
 template <class F>
 TOFRAY_FN bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
   bool any = false;

@@ -14,7 +14,7 @@ template <class F>
 TOFRAY_FN void put(F x, F y, F z, int at, TileRays& rays) {
   shape::store_all(rays.given[0] + at, x), shape::store_all(rays.given[1] + at, y), shape::store_all(rays.given[2] + at, z);
 }
-/// … and within which t they look for a triangle, if at all.
+/// Within which t the rays of a pack look for a triangle, if at all.
 template <class F>
 TOFRAY_FN void put_ends(F shortest, F far, Mask<F> wanted, int at, TileRays& rays) {
   shape::store_all(rays.shortest + at, shortest);

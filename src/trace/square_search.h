@@ -281,7 +281,7 @@ TOFRAY_APART void shade_square_by_sun(const scene::Alongs& alongs, const CulledA
   num::store_square(dark + at, TileRays::row, num::select(out, S(1.0f), load(dark)));
 }
 
-/// … keep from the sun.
+/// Which surfaces the forms that are looked for in squares keep from the sun. [as shade_by_meshes]
 template <class F, class Points, class Screen>
 TOFRAY_FN void shade_by_squares(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
                                 const Points& points, TileRays& rays, const TileSquares& squares, float* dark) {

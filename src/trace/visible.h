@@ -105,7 +105,7 @@ TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, co
   return dark;
 }
 
-/// The same for parallel light that comes from the unit direction s.
+/// Where something stands between a surface and parallel light that comes from the unit direction s.
 template <class F, class Culled>
 TOFRAY_FN Mask<F> blocked_parallel(const Culled& culled, const float* s, const Place<F>& p) {
   return blocked_along_each(shape::Shapes{}, culled, s, p);

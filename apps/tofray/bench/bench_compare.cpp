@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/image_geometry.h"
 #include "backend/cpu/cpu.h"
 #include "base/readout.h"
 #include "bench/bench.h"
-#include "camera/readout/image_camera.h"
 #include "cli/progress.h"
 #include "cli/requests.h"
 
@@ -38,7 +38,7 @@ run::Loaded moving(run::Loaded in) {
 
 /// The camera's view on 640 x 480 pixels.
 run::Loaded enlarged(run::Loaded in) {
-  in.camera = camera::ImageCamera(in.camera);
+  in.camera = analysis::image_camera(in.camera);
   Sensor& sensor = in.camera.sensor;
   Lens& lens = in.camera.lens;
   const double x = 640.0 / sensor.width, y = 480.0 / sensor.height;

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "camera/readout/image_camera.h"
+#include "analysis/image_geometry.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/remarks.h"
@@ -79,7 +79,7 @@ Report check_profile(const std::string& text, const std::string& name, const Opt
   bool tables_seen = false;
   // A fault can be in any mode.
   const auto check_mode = [&](const Camera& in_mode) {
-    camera::ImageCamera camera(in_mode);
+    Camera camera = analysis::image_camera(in_mode);
     // Sensor and lens are the same in all modes: their tables, by pixel, are made once.
     if (tables_seen) camera.sensor.width = camera.sensor.height = 1;
     tables_seen = true;

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/drag.h"
-#include "camera/readout/image_camera.h"
 
 #include <fmt/core.h>
 
@@ -11,14 +10,13 @@
 #include <cmath>
 #include <variant>
 
+#include "analysis/image_geometry.h"
 #include "analysis/stand.h"
 #include "analysis/tessellation.h"
 #include "base/constants.h"
 #include "base/readout.h"
 #include "base/rotation.h"
 #include "base/text.h"
-#include "camera/lens/lens.h"
-#include "scene/motion.h"
 #include "tofray/error.h"
 #include "tofray/simulator.h"
 
@@ -33,7 +31,7 @@ using base::operator+, base::operator-, base::operator*;
   throw Error(ErrorKind::bad_input, "error: " + what + "\n  " + more);
 }
 
-Vec3 vec3(const scene::Vec& a) { return {a.x, a.y, a.z}; }
+Vec3 vec3(const analysis::Vec& a) { return {a.x, a.y, a.z}; }
 Mat3 mat3(const shape::Mat& m) { return {vec3(m.row[0]), vec3(m.row[1]), vec3(m.row[2])}; }
 Mat3 product(const Mat3& a, const Mat3& b) {
   const Mat3 columns = base::transposed(b);
@@ -100,9 +98,6 @@ const Object& movable_of(const SceneAt& at, int index) {
   return object;
 }
 
-/// Its velocity and its steady turn at the time.
-scene::Motion motion_of(const Object& object, double time_s) { return scene::motion_at(object, {0, 0, 0}, time_s); }
-
 void set_position(Moved& to, const SceneAt& at, const Object& object, const Vec3& position) {
   add(to, at.set, key_of(object, "position"), list_text(position));
   to.what = fmt::format("position {} m", short_text(position));
@@ -114,7 +109,7 @@ void set_rotation(Moved& to, const SceneAt& at, const Object& object, const Quat
 
 /// The rotation that the file has to say, so that the object is turned like this at the time.
 Quaternion rotation_before(const Object& object, double time_s, const Mat3& turned) {
-  return base::quaternion_of(product(base::transposed(mat3(motion_of(object, time_s).turn)), turned));
+  return base::quaternion_of(product(base::transposed(mat3(analysis::gone_by(object, time_s).turn)), turned));
 }
 
 /// The camera's axes in the world, as columns.
@@ -125,11 +120,10 @@ Mat3 camera_axes(const SceneAt& at) {
 
 /// The ray of a place in the image: x, y, 1 in the camera's frame.
 Vec3 ray_of(const Camera& camera, double u, double v) {
-  const Lens lens = camera::ImageCamera(camera).lens;
-  camera::Point2 ray{};
-  if (!camera::unproject(lens, camera::growing_radius_squared(lens), {u, v}, ray))
+  const auto direction = analysis::direction_through(camera, u, v);
+  if (!direction)
     refuse(fmt::format("the lens sees nothing at pixel {:g},{:g}", u, v), "the cursor has to be where the picture is not empty");
-  return {ray.x, ray.y, 1};
+  return {(*direction)[0], (*direction)[1], 1};
 }
 
 /// The point in the camera's frame that the drag took.
@@ -159,7 +153,7 @@ Moved turned(const SceneAt& at, const Object& object, const Drag& drag) {
   const double right = drag.to_u - drag.from_u, down = drag.to_v - drag.from_v, pixels = std::hypot(right, down);
   const double per_pixel = base::two_pi / 2 / base::image_extent(at.camera).height;
   const Vec3 axis = pixels > 0 ? camera_axes(at) * Vec3{down / pixels, -right / pixels, 0} : Vec3{0, 0, 1};
-  const Mat3 turn = mat3(scene::rotation_matrix({axis, per_pixel * pixels}));
+  const Mat3 turn = mat3(analysis::turn_about(axis, per_pixel * pixels));
   Moved out;
   const Mat3 before = mat3(analysis::pose_of(object, at.time_s).turn);
   set_rotation(out, at, object, to_nine_digits(rotation_before(object, at.time_s, product(turn, before))));
@@ -259,7 +253,7 @@ Moved placed(const SceneAt& at, const Place& place) {
   const Object& object = movable_of(at, *place.object);
   Moved out;
   if (place.position) {
-    const Vec3 start = vec3(analysis::center_of(object)) + vec3(motion_of(object, at.time_s).shift);
+    const Vec3 start = vec3(analysis::center_of(object)) + vec3(analysis::gone_by(object, at.time_s).origin);
     set_position(out, at, object, *place.position - start);
   }
   if (place.rotation) set_rotation(out, at, object, rotation_before(object, at.time_s, *place.rotation));

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #include "view/scene_3d.h"
-#include "camera/readout/image_camera.h"
 
 #include <array>
 #include <cmath>
@@ -9,10 +8,10 @@
 #include <string>
 
 #include "analysis/bodies.h"
+#include "analysis/image_geometry.h"
 #include "analysis/stand.h"
 #include "base/readout.h"
 #include "base/vec.h"
-#include "camera/lens/lens.h"
 #include "tofray/simulator.h"
 #include "tofray/stages.h"
 #include "view/answer_arrays.h"
@@ -30,7 +29,7 @@ Json rows_json(const base::Mat3& m) {
   return out;
 }
 
-Json vec_json(const scene::Vec& a) { return Json::list(std::array{a.x, a.y, a.z}); }
+Json vec_json(const analysis::Vec& a) { return Json::list(std::array{a.x, a.y, a.z}); }
 
 /// The camera in the world: its axes are the columns.
 struct Stands {
@@ -44,12 +43,12 @@ Stands camera_at(const SceneAt& at) {
 
 /// The rays of the image's four corners, x and y of x, y, 1; null where the lens has none.
 Json frustum_json(const Camera& camera) {
-  const camera::ImageCamera read(camera);
-  const double limit = camera::growing_radius_squared(read.lens), right = read.sensor.width - 0.5, bottom = read.sensor.height - 0.5;
+  const base::ImageExtent image = base::image_extent(camera);
+  const double right = image.width - 0.5, bottom = image.height - 0.5;
   Json out = Json::array();
-  for (const camera::Point2& corner : {camera::Point2{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}) {
-    camera::Point2 ray{};
-    out.push(camera::unproject(read.lens, limit, corner, ray) ? Json::list(std::array{ray.x, ray.y}) : Json());
+  for (const auto& [u, v] : {std::array{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}) {
+    const auto direction = analysis::direction_through(camera, u, v);
+    out.push(direction ? Json::list(*direction) : Json());
   }
   return out;
 }
@@ -113,7 +112,7 @@ void put_objects(Json& json, const SceneAt& at, const Geometry& geometry) {
     const analysis::ObjectPose pose = analysis::pose_of(object, at.time_s);
     const std::string why = why_fixed(object);
     Json rows = Json::array();
-    for (const scene::Vec& row : pose.turn.row) rows.push(vec_json(row));
+    for (const analysis::Vec& row : pose.turn.row) rows.push(vec_json(row));
     Json one = Json::object();
     one.set("id", i).set("name", object.name).set("key", object.key).set("kind", analysis::kind_of(object));
     one.set("position", vec_json(pose.origin)).set("rotation", std::move(rows));

@@ -9,7 +9,7 @@
 /// Light of another camera, as the gate of one raw frame meets it.                                            [theory: eq. 3.24]
 namespace tofray::camera {
 
-/// It in one raw frame, over the own light.
+/// Another camera's light in one raw frame, over the camera's own illumination.
 struct OtherLight {
   double share = 0;      ///< how much there is of it
   double swing = 0;      ///< how much of that has a phase which is known: all or nothing
@@ -22,7 +22,7 @@ OtherLight other_light(const Interference& other, double middle_s, const num::Ra
 
 /// What its light correlates to: cos and sin for each odd harmonic, times its share.
 /// @param turns  by which its phase turns during the exposure
-/// @param phase  at which the gate meets the own light [rad]
+/// @param phase  at which the gate meets the camera's own light [rad]
 /// @param gate   [orders][2]
 void write_other_gate(const OtherLight& light, double turns, double phase, int orders, float* gate);
 

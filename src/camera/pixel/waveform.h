@@ -38,7 +38,7 @@ struct Harmonic {
 /// @throws Error (bad_input) for a frequency, duty, modulation depth, number of harmonics or curve that makes no sense
 std::vector<Harmonic> correlation_harmonics(const Waveform& waveform, const Pixel& pixel, double modulation_frequency_hz);
 
-/// The same of a light, whose wavelength has its say in the pixel's contrast (a measured correlation has that in it).
+/// The correlation's harmonics of a light, whose wavelength has its say in the pixel's contrast (a measured correlation has that in it).
 std::vector<Harmonic> correlation_harmonics(const Illumination& light, const Pixel& pixel, double modulation_frequency_hz);
 
 }  // namespace tofray::camera
