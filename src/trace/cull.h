@@ -245,7 +245,8 @@ TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const 
 }
 
 /// Whether anything of a group is before a rectangle on the screen of parallel light. The points of a tile are at many depths, and the
-/// rectangle that holds them there holds much that is before none of them. Squares look at the clusters themselves; here it is asked whether there is anything at all.
+/// rectangle that holds them there holds much that is before none of them. Squares look at the clusters themselves; here it is asked
+/// whether there is anything at all.
 template <class F>
 TOFRAY_FN bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
   bool any = false;
