@@ -3,6 +3,7 @@
 #include "scene/box_tree.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <utility>
 
@@ -21,21 +22,22 @@ constexpr int greedy_levels = 18;                      ///< below them a node is
 constexpr std::size_t few = 10'000;                    ///< triangles whose boxes are there as soon as threads would be
 constexpr std::size_t many = 200'000;                  ///< items that are cut half by half
 
-Quad quad_of(const float* three) {
-  Quad out;
-  std::memcpy(&out, three, sizeof out);
-  return out;
-}
 /// x, y and z of an item's low corner, beside which its number lies.
 Quad low_of(const BoxItem& item) {
   QuadInt words;
-  std::memcpy(&words, item.low, sizeof words);
+  std::memcpy(&words, &item, sizeof words);
   words &= QuadInt{-1, -1, -1, 0};
   Quad out;
   std::memcpy(&out, &words, sizeof out);
   return out;
 }
-Quad high_of(const BoxItem& item) { return quad_of(item.high); }
+/// x, y and z of its high corner, and 0.
+Quad high_of(const BoxItem& item) {
+  static_assert(offsetof(BoxItem, low) == 0 && sizeof(BoxItem) == offsetof(BoxItem, high) + sizeof(Quad));
+  Quad out;
+  std::memcpy(&out, reinterpret_cast<const char*>(&item) + offsetof(BoxItem, high), sizeof out);
+  return out;
+}
 /// Twice the middle of its box.
 Quad middle_of(const BoxItem& item) { return low_of(item) + high_of(item); }
 
