@@ -95,11 +95,11 @@ def said(struct: str, member: str) -> tuple[str, str]:
 
 
 def test_a_docstring_has_sentence_unit_and_range_of_the_row() -> None:
-    assert said("Pixel", "full_well_e") == ("float, e", "Charge that a tap holds. From 1 to 1e30.")
-    assert said("Pattern", "half_angle_rad") == ("float, rad", "cone: uniform up to this angle to the axis. From 0.001 to 3.14159.")
-    assert said("Adc", "gains")[1] == "What modes may choose from; a mode's step is `step_e_per_dn` over its gain. From 0.01 to 100."
+    assert said("Pixel", "full_well_e") == ("float, e", "Full-well capacity of a tap. From 1 to 1e30.")
+    assert said("Pattern", "half_angle_rad") == ("float, rad", "cone: half angle of the cone, within which it is uniform. From 0.001 to 3.14159.")
+    assert said("Adc", "gains")[1] == "Gains that modes may choose from; a mode's step is `step_e_per_dn` over its gain. From 0.01 to 100."
     assert said("Ambient", "amount")[0] == "float, 1 or lx or W/m2"
-    for word in ("level: share of the spectrum", "illuminance_lx: on the surfaces", "From 0 to 1e7."):
+    for word in ("level: share of the tabulated spectrum", "illuminance_lx: illuminance of the surfaces", "From 0 to 1e7."):
         assert word in said("Ambient", "amount")[1]
 
 
@@ -122,7 +122,7 @@ def test_docstrings_say_what_rows_say(struct: str) -> None:
 def test_what_holds_in_files_alone_is_said_to() -> None:
     # In code, a default is the struct's.
     assert "code of A-B = 0; in files the middle unless given." in said("Adc", "mid_code")[1].replace("Code", "code")
-    assert said("Filter", "center_m")[1].startswith("In files the illumination wavelength of the first light unless given.")
+    assert said("Filter", "center_m")[1].startswith("Centre of the pass band; in files the illumination wavelength of the first light unless given.")
 
 
 def test_no_list_of_members_or_units_is_left() -> None:
