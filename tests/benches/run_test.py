@@ -205,7 +205,7 @@ class Run(unittest.TestCase):
         program(self.work / "v/benches/bench_bounces", printer("hello\n"))
         done = self.run_benches(self.work / "v", "--topics", "samples,bounces")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("Left out of new: `BUILD/apps/tofray/tofray bench flying-ball --frames 30 --json` ended with 1: error: out of memory.", self.table())
+        self.assertRegex(self.table(), r"Left out of new: `BUILD/apps/tofray/tofray bench flying-ball --frames 30 --set .* --json` ended with 1: error: out of memory\.")
         self.assertIn("Left out of new: `BUILD/benches/bench_bounces 16 times` printed no figure that is known: hello.", self.table())
 
     def test_results_that_lack_something_leave_the_other_build_its_figures(self) -> None:

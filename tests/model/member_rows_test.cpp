@@ -25,7 +25,7 @@ TEST(member_rows, have_unit_and_range_of_the_number) {
   const std::vector<MemberRow> rows = rows_of("Pixel", "full_well_e");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].key, "full_well");
-  EXPECT_EQ(rows[0].doc, "charge that a tap holds");
+  EXPECT_EQ(rows[0].doc, "full-well capacity of a tap");
   ASSERT_EQ(rows[0].numbers.size(), 1U);
   EXPECT_EQ(rows[0].numbers[0].unit, "e");
   EXPECT_EQ(rows[0].numbers[0].low, 1);
