@@ -122,7 +122,7 @@ class Depth(Part):
 
 
 class Truth(Part):
-    """Ground truth at the middle of the middle raw frame, and the power of the camera's own light.
+    """Ground truth at the middle of the middle raw frame, and the power of the camera's illumination.
 
     An array that this frame does not have raises AttributeError; ``names`` lists those that it has.
 

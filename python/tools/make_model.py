@@ -259,7 +259,7 @@ if TYPE_CHECKING:
     about = {
         "raw": "What the sensor hands out: raw frames, and when and how each was exposed.",
         "depth": "The depth frame, in the camera's frame: x right, y down, z forward. Invalid values: NaN in floats, 0 in integers.",
-        "truth": "Ground truth at the middle of the middle raw frame, and the power of the camera's own light.",
+        "truth": "Ground truth at the middle of the middle raw frame, and the power of the camera's illumination.",
     }
     for part, doc in about.items():
         rows = [row for row in _native.array_table() if row[1] == part]

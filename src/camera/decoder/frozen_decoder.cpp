@@ -15,6 +15,7 @@
 #include "camera/decoder/wiggling.h"
 #include "camera/pixel/frozen_sensor.h"
 #include "num/setup_math.h"
+#include "tofray/flags.h"
 
 namespace tofray::camera {
 
@@ -244,7 +245,7 @@ void FrozenDecoder::freeze_checks(bool noise) {
   d.asymmetry_factor = single(2 * decoding.asymmetry_sigmas * decoding.asymmetry_sigmas);
   d.multipath_limit = single(decoding.multipath_limit_m);
   d.multipath_factor = single(decoding.multipath_sigmas * decoding.multipath_sigmas);
-  d.rejected = (decoding.asymmetry_reject ? 32 : 0) + (decoding.multipath_reject ? 64 : 0);
+  d.rejected = (decoding.asymmetry_reject ? flag_inconsistent_phases : 0) + (decoding.multipath_reject ? flag_inconsistent_frequencies : 0);
   d.flying_near_z = single(decoding.flying_near_z_m), d.flying_near_limit = single(decoding.flying_near_limit_m);
   d.flying_far_z = single(decoding.flying_far_z_m), d.flying_far_limit = single(decoding.flying_far_limit_m);
   d.flying_factor = noise ? single(decoding.flying_sigmas * decoding.flying_sigmas) : 0, d.flying_check = decoding.flying_check ? 1 : 0;
