@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "backend/engines.h"
 #include "camera/frozen_camera.h"
 #include "camera/readout/image_camera.h"
 #include "scene/frozen_scene.h"
 #include "simulator/border.h"
-#include "simulator/engines.h"
 #include "simulator/exposure.h"
 #include "simulator/placed.h"
 #include "simulator/temporal.h"
@@ -42,7 +42,7 @@ struct Simulator::Impl {
   std::unique_ptr<simulator::Handles> handles;   ///< of the scene's objects, once a request asks
   simulator::Placed placed;                      ///< what moves in `scene` as each request says
   std::vector<std::unique_ptr<Impl>> of_placed;  ///< those for requests that place objects or move the camera; the last one asked is first
-  simulator::Engines engines;
+  backend::Engines engines;
   const float* written_before = nullptr;  ///< Raw::tap_a of the frame before; its content is not read
 
   /// @param with_border  false: nothing beside the region that is read
@@ -98,26 +98,20 @@ struct Simulator::Impl {
   /// @throws Error (bad_input) where a frame depends on earlier ones, and the request says another seed, pose or time than they
   void check_over_time(const FrameRequest& request) const;
   [[nodiscard]] bool stopped() const { return options.progress != nullptr && options.progress->stop; }
-  void frame_by_batch(const FrameRequest& request, Frame& into);
   void frames_over_time(std::uint64_t count, const Request& request, const Take& take);
   /// What does not change from frame to frame.
   [[nodiscard]] pipeline::Setup fixed_setup();
-  void frames_one_by_one(backend::Engine& engine, std::uint64_t from, std::uint64_t count, const Request& request, const Take& take);
-  void frames_on_gpus(std::uint64_t count, const Request& request, const Take& take, std::uint64_t& taken);
-  [[nodiscard]] backend::gpu::Own own_of(std::uint64_t from, std::uint64_t count, const Request& request) const;
-  std::uint64_t fill(backend::gpu::FrameStream& stream, const backend::Cuda& gpu, std::uint64_t from, std::uint64_t count,
-                     const Request& request);
+  /// What a frame has for itself.
+  /// @param moves  something in the scene does
+  [[nodiscard]] backend::Own own_of(const FrameRequest& request, bool moves) const;
+  class RequestedFrames;
 };
 
 /// Frames in the memory of one GPU.
 struct DeviceFrames::Impl {
-  std::unique_ptr<backend::gpu::Device> device;
-  backend::gpu::DeviceMemory memory;
-  std::size_t memory_bytes = 0;
-  backend::gpu::Slab slab;
+  std::unique_ptr<backend::KeptFrames> frames;  ///< null: none yet
   camera::ImageCamera camera;
   std::vector<std::uint64_t> indices;
-  double seconds = 0;
 };
 
 }  // namespace tofray

@@ -143,7 +143,7 @@ void KeptFrames::frame_from(std::uint64_t index, const KeptRaw& raw, Frame& into
   impl.begin({index, {}, {}}, &input, impl.options, impl.scene.transport, to);
   to.raw.tap_a = kept.raw.tap_a, to.raw.tap_b = kept.raw.tap_b, to.raw.raw = kept.raw.raw;
   copy_truth(kept.truth, to.truth, Stage::raw);
-  impl.engines.cpu().run(impl.setup, impl.job, &input);
+  impl.engines.cpu().run(impl.setup, impl.job, backend::Own::moving, &input);
   impl_->done(to, into);
 }
 

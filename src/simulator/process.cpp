@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include "backend/engines.h"
 #include "base/calibration.h"
 #include "base/readout.h"
 #include "base/recording.h"
@@ -7,7 +8,6 @@
 #include "camera/readout/image_camera.h"
 #include "num/setup_math.h"
 #include "simulator/check.h"
-#include "simulator/engines.h"
 #include "simulator/filter.h"
 #include "simulator/frame_memory.h"
 #include "simulator/input.h"
@@ -71,8 +71,9 @@ Depth process(const Raw& raw, const Camera& profile, const SimulatorOptions& opt
   job.scratch = scratch.data();
   job.out = simulator::view_of(depth);
   const simulator::OwnInput own = simulator::input_of(raw);
-  simulator::Engines engines(options, setup);
-  engines.run([&](backend::Engine& engine) { engine.run(setup, job, &own.input); });
+  backend::Engines engines(options, setup);
+  const backend::Own drifts = setup.sensor.drifts != 0 ? backend::Own::moving : backend::Own::number;
+  engines.run([&](backend::Engine& engine) { engine.run(setup, job, drifts, &own.input); });
   if (ran_on != nullptr) *ran_on = engines.ran_on();
   return depth;
 }

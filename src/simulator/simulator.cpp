@@ -300,12 +300,8 @@ void Simulator::Impl::compute(const FrameRequest& request, const pipeline::Input
                               const Transport& transport, Frame& into) {
   begin(request, input, with, transport, into);
   engines.run([&](backend::Engine& engine) {
-    if ((request.seed || (request.pose && !placed.camera)) && !engines.gpus().empty()) {
-      frame_by_batch(request, into);
-      return;
-    }
     if (!engine.derives()) frozen_scene.derive();
-    engine.run(setup, job, input);
+    engine.run(setup, job, own_of(request, setup.scene.moments > 0), input);
   });
   if (!exposure.on() || exposure.known() != request.index + 1 || stopped()) return;
   exposure.follow(setup.sensor, job.out, {camera.sensor.width, camera.sensor.height, setup.region});

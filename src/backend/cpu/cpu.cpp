@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "backend/cpu/for_each_tile.h"
+#include "backend/slab.h"
 #include "pipeline/pass/list.h"
 #include "tofray/error.h"
 
@@ -161,7 +162,7 @@ void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::
   });
 }
 
-void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
+void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, Own /*own*/, const pipeline::Input* input) {
   flow::LightImage image;
   const std::size_t bytes = place_light(setup, job.out, input, nullptr, image);
   const LightOrigin origin = light_origin(setup, job.out, input);
@@ -170,6 +171,19 @@ void Cpu::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipe
   if (light_.size() < bytes) light_.resize(bytes);
   run_steps(setup, job, input, {light_.data(), known, false});
   if (bytes > 0 && !gave_up_) light_of_ = origin;
+}
+
+void Cpu::run(Batch& batch) {
+  const Slab slab(batch.setup, batch.job.out, 0);
+  std::vector<unsigned char> memory(slab.bytes());
+  batch.job.tap_stores = pipeline::TapStores::some;  // each frame lies where the one before was
+  batch.job.out = slab.view(memory.data());
+  for (std::uint64_t i = batch.taken; i < batch.count; batch.taken = ++i) {
+    batch.set(i, true);
+    run(batch.setup, batch.job, Own::scene, nullptr);
+    if (stopped()) return;  // the frame is no frame
+    batch.take(i, batch.job.out);
+  }
 }
 
 void Cpu::run_kept(const pipeline::Setup& setup, const pipeline::Job& job, std::vector<unsigned char>& light) {

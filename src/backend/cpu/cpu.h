@@ -36,7 +36,9 @@ class Cpu final : public Engine {
 
   /// @throws Error (limit) where the system refuses that many threads
   void load(const pipeline::Setup& setup) override;
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, Own own, const pipeline::Input* input) override;
+  void run(Batch& batch) override;
+  [[nodiscard]] std::unique_ptr<KeptFrames> keep(Batch&, std::unique_ptr<KeptFrames>) override { return nullptr; }
   /// From the scene on; the light of stages 1 and 2 stays in memory of whoever asks.
   void run_kept(const pipeline::Setup& setup, const pipeline::Job& job, std::vector<unsigned char>& light);
   /// Out of light that stayed; the truth of these stages is in the frame already. Several may read it at once.

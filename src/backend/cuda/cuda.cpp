@@ -50,48 +50,21 @@ CudaLack why_no_cuda(int device) {
 std::string cuda_bus_id(int device) { return gpu::open_device(device).info().bus_id; }
 
 Cuda::Cuda(int device, int block_size, Cpu& host)
-    : device_(gpu::open_device(device)), block_size_(check_block_size(block_size)), host_(host) {}
+    : device_(gpu::open_device(device)), block_size_(check_block_size(block_size)), host_(host), all_(device >= 0) {}
 
 void Cuda::load(const pipeline::Setup& setup) {
-  device_.use();
-  const auto pack = [&](gpu::Packer& packer) {
-    pipeline::Setup to = setup;
-    resident_.sample_lenses = gpu::pack_lenses(packer, setup, to);
-    resident_.modulations = gpu::pack_camera(packer, setup, to);
-    gpu::pack_scene(packer, setup.scene, to.scene);
-    return to;
-  };
-  resident_.shares.assign(setup.subpixel.share, setup.subpixel.share + (setup.subpixel.lens != nullptr ? setup.subpixel.count : 0));
-  gpu::Packer measure;
-  (void)pack(measure);
-  const gpu::PinnedMemory staged = device_.allocate_pinned(measure.used());
-  resident_.memory = device_.allocate(measure.used());
-  gpu::Packer packer(staged.get(), resident_.memory.get());
-  resident_.setup = pack(packer);
-  const gpu::Stream stream = device_.stream();
-  device_.check(device_.runtime().copy(resident_.memory.get(), staged.get(), packer.used(), gpu::Way::to_device, stream.get()),
-                "copying the scene to the GPU");
-  device_.check(device_.runtime().synchronize(stream.get()), "copying the scene to the GPU");
-  const pipeline::Pass longest =
-      pipeline::bounces(setup, Stage::trace) ? pipeline::pass<pipeline::Bounces> : pipeline::pass<pipeline::FromRays>;
-  int threads = 0;
-  device_.check(device_.runtime().occupancy(longest, block_size_, threads), "asking for the occupancy");
-  occupancy_ = static_cast<double>(threads) / device_.info().threads_per_processor;
+  loaded_.clear();
+  loaded_.emplace_back(device_, block_size_, setup);
 }
 
-gpu::FrameStream& Cuda::frame_stream(std::size_t i) {
-  device_.use();
-  while (frame_streams_.size() <= i) frame_streams_.emplace_back(device_, block_size_);
-  return frame_streams_[i];
-}
-
-void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input) {
-  gpu::FrameStream& first = frame_stream(0);
-  first.begin(resident_, setup, job, setup.scene.moments > 0 || setup.sensor.drifts != 0 ? gpu::Own::moving : gpu::Own::number, 1, input);
-  first.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
-  first.submit_graph();
-  first.wait();
-  const std::vector<gpu::Slab::Piece> pieces = first.slab().pieces(first.received(0), job.out);
+void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, Own own, const pipeline::Input* input) {
+  gpu::LoadedDevice& gpu = loaded_.front();
+  gpu::FrameStream& stream = gpu.stream(0);
+  stream.begin(gpu.resident(), setup, job, own, 1, input);
+  stream.add(setup, job.index_low | static_cast<std::uint64_t>(job.index_high) << 32);
+  stream.submit_graph();
+  stream.wait();
+  const std::vector<Slab::Piece> pieces = stream.slab().pieces(stream.received(0), job.out);
   host_.for_each(copiers, [&](int share) {
     for (std::size_t i = static_cast<std::size_t>(share); i < pieces.size(); i += copiers)
       std::memcpy(pieces[i].to, pieces[i].from, pieces[i].bytes);
@@ -99,7 +72,7 @@ void Cuda::run(const pipeline::Setup& setup, const pipeline::Job& job, const pip
 }
 
 void Cuda::describe(RanOn& out) const {
-  out.backend = "cuda", out.device = device_.info().name, out.block_size = block_size_, out.occupancy = occupancy_;
+  out.backend = "cuda", out.device = device_.info().name, out.block_size = block_size_, out.occupancy = loaded_.front().occupancy();
 }
 
 }  // namespace tofray::backend

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "backend/cpu/cpu.h"
-#include "backend/cuda/frame_stream.h"
+#include "backend/cuda/loaded_device.h"
 #include "backend/engine.h"
 
 /// Runs the pipeline on a GPU: one thread for each pixel. No type of CUDA's is in this header.
@@ -33,35 +34,33 @@ std::string cuda_bus_id(int device);
 /// @throws Error (bad_input) for a number that cannot be
 int check_block_size(int wanted);
 
-/// One GPU with a camera and a scene.
+/// GPUs with a camera and a scene: the first one computes single frames, all of them batches.
 class Cuda final : public Engine {
  public:
-  /// @param device      −1: the first one that can be used
+  /// @param device      −1: the first one that can be used, and all others for batches
   /// @param block_size  threads per block, a multiple of 32 up to 1024; 0: chosen
   /// @param host        its threads take a frame's arrays to their places
   /// @throws gpu::Fault where the GPU cannot be used; Error (bad_input) for a block size that cannot be
   Cuda(int device, int block_size, Cpu& host);
 
-  /// @throws gpu::Fault
+  // All of these throw gpu::Fault where a GPU fails.
   void load(const pipeline::Setup& setup) override;
-  /// @throws gpu::Fault
-  void run(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input = nullptr) override;
+  void run(const pipeline::Setup& setup, const pipeline::Job& job, Own own, const pipeline::Input* input) override;
+  void run(Batch& batch) override;
+  [[nodiscard]] std::unique_ptr<KeptFrames> keep(Batch& batch, std::unique_ptr<KeptFrames> before) override;
   [[nodiscard]] bool derives() const override { return true; }
   /// All but the processor's isa and threads.
   void describe(RanOn& out) const override;
 
-  /// Stream i; made where there is none yet.
-  gpu::FrameStream& frame_stream(std::size_t i);
-  [[nodiscard]] const gpu::Resident& resident() const { return resident_; }
-  [[nodiscard]] const gpu::Device& device() const { return device_; }
-
  private:
+  /// Those that batches use beside the first, unless they are open.
+  void open_others(Batch& batch);
+
   gpu::Device device_;
   int block_size_;
   Cpu& host_;
-  double occupancy_ = 0;  ///< how full one multiprocessor is of the kernel that takes the time
-  gpu::Resident resident_;
-  std::deque<gpu::FrameStream> frame_streams_;
+  bool all_;                              ///< no other GPU is to be looked for
+  std::deque<gpu::LoadedDevice> loaded_;  ///< the one of single frames first
 };
 
 }  // namespace tofray::backend

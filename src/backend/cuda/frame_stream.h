@@ -7,17 +7,11 @@
 
 #include "backend/cuda/device.h"
 #include "backend/cuda/pack.h"
-#include "backend/cuda/slab.h"
+#include "backend/engine.h"
 #include "backend/light_memory.h"
+#include "backend/slab.h"
 
 namespace tofray::backend::gpu {
-
-/// What the frames of a batch have for themselves.
-enum class Own {
-  number,  ///< their place in the random numbers
-  moving,  ///< and the times at which what moves is seen, the sensor's state and seed
-  scene,   ///< and the camera's pose
-};
 
 /// What does not change from frame to frame, on the device.
 struct Resident {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/cuda/slab.h"
+#include "backend/slab.h"
 
 #include <algorithm>
 
-namespace tofray::backend::gpu {
+namespace tofray::backend {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::vector<Slab::Piece> Slab::pieces(const void* base, const flow::FrameView& t
   return out;
 }
 
-}  // namespace tofray::backend::gpu
+}  // namespace tofray::backend

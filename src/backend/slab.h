@@ -6,9 +6,9 @@
 
 #include "pipeline/setup.h"
 
-/// One frame's arrays in one piece of memory, so that a frame is copied by one call.
-namespace tofray::backend::gpu {
+namespace tofray::backend {
 
+/// One frame's arrays in one piece of memory, so that a frame is copied by one call.
 class Slab {
  public:
   Slab() = default;
@@ -42,4 +42,4 @@ class Slab {
   std::size_t scratch_offset_ = 0;
 };
 
-}  // namespace tofray::backend::gpu
+}  // namespace tofray::backend
