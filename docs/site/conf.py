@@ -18,6 +18,7 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 
 myst_enable_extensions = ["dollarmath"]
 myst_dmath_allow_labels = False
+myst_url_schemes = ("http", "https", "mailto", "equation")  # equation:ggx is of pages.py, and extension.py resolves it
 myst_heading_anchors = 4
 math_numfig = False
 html_math_renderer = "katex"

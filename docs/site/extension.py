@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the site adds to Sphinx: equations are HTML when the page is made, "equation 2.5" leads to equation 2.5, and x_1 in a chapter is x with an index."""
+"""What the site adds to Sphinx: equations are HTML when the page is made, citations lead to them, and x_1 in a chapter is x with an index."""
 
 import html
 import json
@@ -16,10 +16,11 @@ log = logging.getLogger(__name__)
 HERE = os.path.dirname(os.path.abspath(__file__))
 KATEX = os.environ.get("TOFRAY_SITE_KATEX", "/usr/share/javascript/katex")
 
-TAG = re.compile(r"\\tag\{([\d.]+)\}")
-# eq. 4.5, eqs. 2.5 and 2.6, equation 2.13, equations 4.4–4.7, equations 2.5 to 2.7
-CITATION = re.compile(r"\b(?:[Ee]qs?\.|[Ee]quations?)\s((?:\d+\.\d+(?:[–-]| to | and |, )?)+)")
-NUMBER = re.compile(r"\d+\.\d+")
+TAG = re.compile(r"\s*\\tag\{([a-z0-9-]+)\}")
+# [theory: reset-noise], [theory: ggx, ggx-masking] in any text; in documents links to equation:ggx, which pages.py writes
+CITATION = re.compile(r"\[theory:\s([a-z0-9-]+(?:,\s[a-z0-9-]+)*)\]")
+NAME = re.compile(r"[a-z0-9-]+")
+SCHEME = "equation:"
 # D_k, Z_jm, N_A,k, k_1r² (the index is 1), e^{i·m·φ_j}, (l·m)^(n+1). Of fill_factor it is none: a symbol is one letter.
 BASE = r"(?:(?<=(?<![A-Za-z_])[A-Za-z])|(?<=[^\x00-\x7f])|(?<='))"
 BRACES, PARENTHESES = r"\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}", r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)"
@@ -28,8 +29,8 @@ INDEX = re.compile(rf"{BASE}_(?:{BRACES}|(\d+|[A-Za-zα-ωΔ]+(?:,[A-Za-z0-9]+)*
 NOT_OURS = {"Any", "Callable", "Hz", "Iterable", "Iterator", "Literal", "Mapping", "None", "Sequence"}
 
 
-def anchor(number):
-    return f"equation-{number}"
+def anchor(name):
+    return f"equation-{name}"
 
 
 class Katex:
@@ -52,8 +53,7 @@ class Katex:
 katex = Katex()
 
 
-def rendered(self, node, display):
-    tex = node.astext()
+def rendered(node, tex, display):
     answer = katex.html(tex, display)
     if "error" in answer:
         log.warning("KaTeX: %s", answer["error"], location=node)
@@ -62,14 +62,17 @@ def rendered(self, node, display):
 
 
 def visit_math(self, node):
-    self.body.append(rendered(self, node, False))
+    self.body.append(rendered(node, node.astext(), False))
     raise nodes.SkipNode
 
 
 def visit_math_block(self, node):
-    tags = TAG.findall(node.astext())
-    place = f' id="{anchor(tags[0])}"' if tags else ""
-    self.body.append(f'<div class="equation"{place}>{rendered(self, node, True)}</div>\n')
+    """The name stands in a line of its own below the formula, and is a link to it: KaTeX would draw a long one over a long formula."""
+    tex = node.astext()
+    names = TAG.findall(tex)
+    place = f' id="{anchor(names[0])}"' if names else ""
+    name = f'<div class="equation-name"><a href="#{anchor(names[0])}">{names[0]}</a></div>' if names else ""
+    self.body.append(f'<div class="equation"{place}>{rendered(node, TAG.sub("", tex), True)}{name}</div>\n')
     raise nodes.SkipNode
 
 
@@ -77,8 +80,8 @@ def note_equations(app, document):
     """Which page has which equation."""
     homes = app.env.__dict__.setdefault("tofray_equations", {})
     for block in document.findall(nodes.math_block):
-        for number in TAG.findall(block.astext()):
-            homes[number] = app.env.docname
+        for name in TAG.findall(block.astext()):
+            homes[name] = app.env.docname
 
 
 def plain_texts(tree):
@@ -106,33 +109,39 @@ def replaced(text, found):
         text.parent.replace(text, out)
 
 
+def address_of(app, docname, homes, name, location):
+    """Where an equation is, from a page; nothing, and a warning, of one that there is not."""
+    if name in homes:
+        return app.builder.get_relative_uri(docname, homes[name]) + "#" + anchor(name)
+    log.warning("there is no equation %s", name, location=location)
+    return None
+
+
 def link_equations(app, tree, docname):
     homes = getattr(app.env, "tofray_equations", {})
     for text in plain_texts(tree):
         found = []
         for cited in CITATION.finditer(text.astext()):
-            for number in NUMBER.finditer(cited[1]):
-                home = homes.get(number[0])
-                if home is None:
-                    log.warning("there is no equation %s", number[0], location=docname)
-                    continue
-                address = app.builder.get_relative_uri(docname, home) + "#" + anchor(number[0])
-                start = cited.start(1) + number.start()
-                found.append((start, start + len(number[0]), nodes.reference(number[0], number[0], internal=True, refuri=address)))
+            for name in NAME.finditer(cited[1]):
+                address = address_of(app, docname, homes, name[0], docname)
+                if address:
+                    start = cited.start(1) + name.start()
+                    found.append((start, start + len(name[0]), nodes.reference(name[0], name[0], internal=True, refuri=address)))
         replaced(text, found)
+    for link in tree.findall(nodes.reference):
+        if link.get("refuri", "").startswith(SCHEME):
+            address = address_of(app, docname, homes, link["refuri"].removeprefix(SCHEME), link)
+            if address:
+                link["refuri"], link["internal"] = address, True
     if docname == "theory/equations":
         link_list(app, tree, docname, homes)
 
 
 def link_list(app, tree, docname, homes):
-    """The numbers at the beginning of the lines of the page of all equations."""
+    """The names at the beginning of the lines of the page of all equations."""
     for strong in list(tree.findall(nodes.strong)):
-        number = strong.astext()
-        if NUMBER.fullmatch(number):
-            if number not in homes:
-                log.warning("there is no equation %s", number, location=strong)
-                continue
-            address = app.builder.get_relative_uri(docname, homes[number]) + "#" + anchor(number)
+        address = address_of(app, docname, homes, strong.astext(), strong)
+        if address:
             strong.replace_self(nodes.reference("", "", strong.deepcopy(), internal=True, refuri=address))
 
 

@@ -4,7 +4,7 @@
 """The documentation as a site: docs/site/make.py [--build build/release] [--out build/site]. `./dev docs` calls it.
 
 Pages are the tree's Markdown; C++ comes from the headers by Doxygen, Python from the module that is built, notebooks are run. Anything
-that any of them warns of, a link or an equation number that leads nowhere, a public name without a page: an error.
+that any of them warns of, a link or an equation's name that leads nowhere, a public name without a page: an error.
 """
 
 import argparse

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""The site's pages out of the tree's documents, line by line the same but for their links, which lead to pages of the site."""
+"""The site's pages out of the tree's documents, line by line the same but for their links, which lead to pages of the site.
+
+A link to an equation, chapter.md#equation-ggx, becomes equation:ggx: extension.py knows which page has it.
+"""
 
 import os
 import pathlib
@@ -9,6 +12,7 @@ import re
 import shutil
 
 LINK = re.compile(r"(\]\()([^)#\s]+)(#[^)\s]+)?(?=[)\s])")
+EQUATION = re.compile(r"(\]\()[^)\s#]*#equation-([^)\s]+)(?=\))")
 LANGUAGES = {".py": "python", ".h": "cpp", ".cpp": "cpp", ".yaml": "yaml", ".sh": "sh", ".cmake": "cmake", ".bib": "bibtex", ".obj": "text", ".mtl": "text"}
 LARGEST_TEXT = 100_000
 
@@ -86,7 +90,8 @@ class Pages:
             if line.lstrip().startswith("```"):
                 code = not code
             elif not code:
-                lines[at] = LINK.sub(lambda found, number=at + 1: found[1] + self.target(name, number, home, found[2]) + (found[3] or ""), line)
+                line = LINK.sub(lambda found, number=at + 1: found[1] + self.target(name, number, home, found[2]) + (found[3] or ""), line)
+                lines[at] = EQUATION.sub(r"\1equation:\2", line)
         return "\n".join(lines)
 
     def target(self, name, line, home, link):

@@ -100,13 +100,16 @@ def sentence(text: str) -> str:
 
 
 def wrapped(text: str, indent: int) -> str:
-    return textwrap.fill(text, 100, initial_indent=" " * indent, subsequent_indent=" " * indent)
+    """Lines of 100 columns at most. A citation of equations is one word, hyphens and all."""
+    whole = re.sub(r"\[theory: [^\]]*\]", lambda found: found[0].replace(" ", "\1").replace("-", "\2"), text)
+    lines = textwrap.fill(whole, 100, initial_indent=" " * indent, subsequent_indent=" " * indent)
+    return lines.replace("\1", " ").replace("\2", "-")
 
 
 # Classes that have more than their members.
 BASES = {"Pinhole": "PinholeMethods", "Placement": "PlacementMethods", "Pose": "PoseMethods"}
 
-IN_BRACKETS = re.compile(r"(?<!\])\B\[(?!eq\.|theory)([^],]+)\](?!\[)")  # a unit, and no equation or shape
+IN_BRACKETS = re.compile(r"(?<!\])\B\[(?!theory)([^],]+)\](?!\[)")  # a unit, and no equation or shape
 
 
 def short(number: float) -> str:

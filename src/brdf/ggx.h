@@ -7,7 +7,7 @@
 
 namespace tofray::brdf {
 
-/// GGX: small mirrors whose slopes spread by α, over a matt ground.                                          [theory: eq. 2.16, 2.17]
+/// GGX: small mirrors whose slopes spread by α, over a matt ground.                                        [theory: ggx, ggx-masking]
 ///
 ///     f_r = D·V·F + (28/23)·(k_d/π)·(1 − F_0)·(1 − (1 − n·l/2)⁵)·(1 − (1 − n·v/2)⁵)
 ///
@@ -56,7 +56,7 @@ struct Ggx {
   /// Ways by the mirrors that the view sees, not masked by others [dupuy2023]: where α is 1, their normals are h ∝ v + c, c even over a
   /// cap of the sphere of directions. Their density is D/(2·(n·v + m(n·v))).
   ///
-  /// The share is that of F at the view's own cosine, held to a tenth of the ground's, in what both send back about. [theory: eq. 2.26]
+  /// The share is that of F at the view's own cosine, held to a tenth of the ground's, in what both send back about. [theory: ggx-sampling]
   template <class F>
   TOFRAY_FN static F lobe_share(const Finish<F>& of, F cos_view) {
     const F ground = of.number[0] * F(23.0f / 28) * passed(cos_view);

@@ -5,7 +5,7 @@
 
 namespace tofray::brdf {
 
-/// Lambert: f_r = ρ/π in every direction.                                                                  [theory: eq. 2.3]
+/// Lambert: f_r = ρ/π in every direction.                                                                  [theory: lambert]
 struct Lambert {
   template <class Said>
   static MaterialView view(const Said& material) {

@@ -87,7 +87,7 @@ TOFRAY_FN F albedo(const Finish<F>& of, F cosine) {
   return out;
 }
 
-/// f_r [1/sr]: how a surface sends light on.                                                [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
+/// f_r [1/sr]: how a surface sends light on.                [theory: lambert, phong, oren-nayar, ggx, ggx-masking, retro-reflector]
 /// @param directions  a function that gives Directions<F>: called where they are needed
 template <class F, class Toward>
 TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions) {

@@ -5,7 +5,7 @@
 
 namespace tofray::brdf {
 
-/// Oren–Nayar, the qualitative model of 1994: a matt surface of small facets whose slopes spread by σ.              [theory: eq. 2.14]
+/// Oren–Nayar, the qualitative model of 1994: a matt surface of small facets whose slopes spread by σ.            [theory: oren-nayar]
 ///
 ///     f_r = ρ/π·(A + B·max(0, cos(φ_i − φ_r))·sin α·tan β),   A = 1 − σ²/(2(σ² + 0.33)),   B = 0.45·σ²/(σ² + 0.09)
 ///
@@ -29,7 +29,7 @@ struct OrenNayar {
   }
   /// ∫ f_r·cos θ_i dω over the half space, of a surface that is seen at θ: ρ·(A + B·h(θ)),
   ///
-  ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                                  [theory: eq. 2.30]
+  ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                         [theory: oren-nayar-albedo]
   template <class F>
   TOFRAY_FN static F albedo(const Finish<F>& of, F cosine) {
     const F c = num::min(num::max(cosine, F(0.0f)), F(1.0f)), s = num::sqrt(num::fnma(c, c, F(1.0f)));

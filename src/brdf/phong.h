@@ -5,7 +5,7 @@
 
 namespace tofray::brdf {
 
-/// Lambert k_d/π, and the normalised Phong lobe k_s(n+2)/(2π)·max(0, cos α_r)ⁿ about the mirror direction.    [theory: eq. 2.4]
+/// Lambert k_d/π, and the normalised Phong lobe k_s(n+2)/(2π)·max(0, cos α_r)ⁿ about the mirror direction.      [theory: phong]
 struct Phong {
   template <class Said>
   static MaterialView view(const Said& material) {
@@ -19,7 +19,7 @@ struct Phong {
     return diffuse * F(per_pi) + lobe;
   }
   /// Ways out of cosⁿ about the view's mirror direction m, of the density (n + 1)/(2π)·max(0, l·m)ⁿ: l·m is (1 − u)^(1/(n+1)), and
-  /// |l − m|² = 2 − 2·l·m.                                                                                 [theory: eq. 2.25]
+  /// |l − m|² = 2 − 2·l·m.                                                                           [theory: phong-sampling]
   template <class F>
   TOFRAY_FN static F lobe_share(const Finish<F>& of, F) {
     return of.number[1] / num::max(of.number[0] + of.number[1], F(1e-30f));

@@ -53,7 +53,7 @@ TOFRAY_FN F in_level(const MapView& map, num::Int<F> level, F u, F v) {
   return num::fma(below - above, low, above);
 }
 
-/// What the picture says at (u, v), between the two levels whose texels are next to the pixel's size.    [theory: eq. 2.19]
+/// What the picture says at (u, v), between the two levels whose texels are next to the pixel's size.  [theory: pixel-footprint]
 /// @param seen  area that a pixel sees, in units of the picture (1: all of it)
 template <class F>
 TOFRAY_FN F map_value(const MapView& map, F u, F v, F seen) {

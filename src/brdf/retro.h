@@ -7,7 +7,8 @@
 
 namespace tofray::brdf {
 
-/// A retro-reflector, such as a road sign's sheet: Lambert k_d/π, and a lobe of the share k_r back toward the light.   [theory: eq. 2.18]
+/// A retro-reflector, such as a road sign's sheet: Lambert k_d/π, and a lobe of the share k_r back toward the light.
+///                                                                                                              [theory: retro-reflector]
 ///
 ///     f_r = k_d/π + k_r/(π·w²·(1 + |l − v|²/w²)²·max(n·l, n·v)),   w² = 4·sin²(σ/2)/(√2 − 1)
 ///
@@ -26,7 +27,7 @@ struct Retro {
     return num::fma(of.number[0], F(per_pi), of.number[1] / (fall(of, directions) * larger));
   }
   /// Ways out of the lobe about the view, of the density (1/w² + ¼)/(π·(1 + |l − v|²/w²)²): |l − v|² = u/((1 − u)/w² + ¼).
-  ///                                                                                                      [theory: eq. 2.27]
+  ///                                                                                                [theory: retro-sampling]
   template <class F>
   TOFRAY_FN static F lobe_share(const Finish<F>& of, F) {
     const F back = of.number[1] * F(3.14159265f) / (of.number[2] + F(0.25f));  // k_r/(1 + w²/4)

@@ -24,14 +24,14 @@ concept Lobed = requires(Finish<F> of, Cosines<F> cosine, Directions<F> directio
   T::lobe_pdf(of, cosine, directions);
 };
 
-/// Of the density (n·l)/π.                                                                                  [theory: eq. 2.23]
+/// Of the density (n·l)/π.                                                                           [theory: cosine-sampling]
 template <class F>
 TOFRAY_FN Direction<F> cosine_way(const Direction<F>& normal, F u, F v) {
   return beside(normal, num::sqrt(F(1.0f) - u), num::sqrt(u), v);
 }
 
 /// Matt part or lobe: u says which, and what is left of it where. Whichever it was, the weight is by the density of both, which keeps it
-/// from growing where one part alone is rare.                                                              [theory: eq. 2.24]
+/// from growing where one part alone is rare.                                                      [theory: mixture-sampling]
 template <class T, class F>
 TOFRAY_APART Sampled<F> matt_or_lobe(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v) {
   const F cos_view = inner(normal, view), share = T::lobe_share(of, cos_view), rest = F(1.0f) - share;
@@ -76,7 +76,8 @@ TOFRAY_FN void sample_each(num::List<T...>, const Finish<F>& of, const Direction
   (sample_those<T>(of, normal, view, u, v, out), ...);
 }
 
-/// A way that light may have come from, and what it weighs.                                        [theory: eq. 2.23–2.27]
+/// A way that light may have come from, and what it weighs.
+///                               [theory: cosine-sampling, mixture-sampling, phong-sampling, ggx-sampling, retro-sampling]
 /// @param normal, view  of unit length, the view (to where light goes) above the surface: n·v > 0
 /// @param u, v          in [0, 1): a pair for each way, evenly spread over the square
 template <class F>

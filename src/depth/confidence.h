@@ -5,7 +5,7 @@
 
 namespace tofray::depth {
 
-/// Confidence 255·p·max(0, 1 − σ̂/0.07 m), rounded.                                                   [theory: eq. 4.10]
+/// Confidence 255·p·max(0, 1 − σ̂/0.07 m), rounded.                                                 [theory: confidence]
 /// @param trust  p, how likely the range is on the right cycle
 template <class F>
 TOFRAY_FN num::Int<F> confidence(const camera::DecoderView& s, F noise, F trust) {

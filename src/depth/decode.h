@@ -6,7 +6,7 @@
 #include "effect/nonlinearity.h"
 #include "tofray/flags.h"
 
-/// Stage 4: from raw frames to range.                                                                   [theory: chapter 4]
+/// Stage 4: from raw frames to range.                                                                   (docs/theory/04-depth.md)
 namespace tofray::depth {
 
 using flow::Depth;
@@ -19,7 +19,7 @@ enum Bits : std::int32_t {
       invalid = flags_invalid,
 };
 
-/// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                                  [eq. 4.2]
+/// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                   [theory: phase-estimate]
 template <class F>
 struct Phasor {
   F real, imaginary;
@@ -35,7 +35,7 @@ TOFRAY_FN Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeMod
   return {real, imaginary};
 }
 
-/// Its phase and amplitude: φ̂ = arg Ẑ, Â = |Ẑ|.                                                          [eq. 4.2]
+/// Its phase and amplitude: φ̂ = arg Ẑ, Â = |Ẑ|.                                           [theory: phase-estimate]
 template <class F>
 struct Estimate {
   F real, imaginary;  ///< Ẑ [e⁻]
@@ -60,7 +60,7 @@ TOFRAY_FN F at_phase(const camera::DecoderView& s, const float* table, F turns, 
   num::gather_pair(table, num::to_int(node), value, step);
   return num::fma(place - node, step, value);
 }
-/// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                                         [eq. 4.3]
+/// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                     [theory: wiggling-correction]
 template <class F>
 TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
   F step;
@@ -68,7 +68,7 @@ TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulatio
   slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
   return turns + correction;
 }
-/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.              [eq. 4.9]
+/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.  [theory: noise-estimate]
 template <class F>
 TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
   if (m.light == nullptr) return F(m.per_contrast);
@@ -77,7 +77,7 @@ TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::Deco
 }
 
 /// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
-/// A, and dark charge below it.                                                                           [eq. 4.9, 4.21]
+/// A, and dark charge below it.                                                   [theory: noise-estimate, noise-as-read]
 /// \tparam plain  as of decode
 template <bool plain, class F>
 TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
@@ -99,7 +99,8 @@ TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::De
   return most * most > num::max(F(s.asymmetry_factor) * variance, F(s.asymmetry_square));
 }
 
-/// What background suppression took off each tap of raw frame k: about x_k = min(budget, ½(collected − |D_k|) − threshold).    [eq. 4.13]
+/// What background suppression took off each tap of raw frame k: about x_k = min(budget, ½(collected − |D_k|) − threshold).
+///                                                                                                            [theory: suppression-noise]
 /// @param collected   electrons of both taps together
 /// @param difference  D_k [e⁻]
 template <class F>
@@ -109,7 +110,7 @@ TOFRAY_FN F suppressed(const camera::DecoderView& s, F difference, F collected) 
 }
 
 /// What background suppression adds to the variance, as if to each raw frame: its noise turns the phase by the part that stands across Ẑ.
-/// @param collected   electrons of both taps together                                                     [eq. 4.13]
+/// @param collected   electrons of both taps together                                    [theory: suppression-noise]
 /// @param per_slope   electrons of each one that is read
 template <class F>
 TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
@@ -125,7 +126,7 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
 }
 
-/// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.                [eq. 4.21]
+/// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.   [theory: noise-as-read]
 template <class F>
 TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected, F per_slope) {
   const F charge = F(0.5f) * collected;
@@ -136,7 +137,8 @@ TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModula
 }
 
 /// Variance with a nonlinear readout: charge variance × (slope of the readout curve)². Only the
-/// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.  [eq. 4.21]
+/// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.
+///                                                                                                                  [theory: noise-as-read]
 /// @param known  electrons of both taps that are no signal: ambient light and dark current
 template <class F>
 TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
@@ -158,7 +160,7 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
   return num::fma(slope * slope, variance, F(s.output_floor));
 }
 
-/// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
+/// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                       [theory: noise-estimate]
 /// \tparam plain  as of decode
 template <bool plain = false, class F>
 TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
@@ -171,18 +173,18 @@ TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModula
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));
 }
 
-/// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².           [eq. 4.9]
+/// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².  [theory: noise-estimate]
 template <class F>
 TOFRAY_FN F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
   const F signal = num::max(e.amplitude, F(1e-3f));
   return signal * signal / (variance * F(m.variance_factor) * (slope * slope));
 }
 
-/// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
+/// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).  [theory: path-to-range]
 template <class F>
 struct Inverse {
   F range;
-  F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                             [eq. 4.14]
+  F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                  [theory: range-slope]
 };
 template <class F>
 TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
@@ -223,7 +225,7 @@ struct OfFrequency {
   num::Int<F> cycle;  ///< n_i: that in which d_i is nearest to the half path of all; below 0 or past the last one at the ends of the range
   Mask<F> known;      ///< it has light, and a half path longer than the way between light and lens
 };
-/// What each says alone, in the cycle that unwrapping found for all of them.                               [eq. 4.4, 4.34]
+/// What each says alone, in the cycle that unwrapping found for all of them.         [theory: half-path, single-frequency]
 template <class F>
 TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
                               OfFrequency<F>* out) {

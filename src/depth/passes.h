@@ -7,7 +7,7 @@
 /// What looks at neighbours: flying pixels, and the image filters. Each is a pure function of one row and a view.
 namespace tofray::depth {
 
-/// Largest step in z that one surface may show between neighbours: grows linearly between two distances. [eq. 4.11]
+/// Largest step in z that one surface may show between neighbours: grows linearly between two distances. [theory: flying-pixel-limit]
 template <class F>
 TOFRAY_FN F flying_limit(const camera::DecoderView& s, F z) {
   const F share =
@@ -27,7 +27,7 @@ template <class F>
 TOFRAY_FN Mask<F> is_apart(const FlyingImage& image, int neighbour, int count, F here, F limit) {
   return num::abs(num::load<F>(image.z + neighbour, count) - here) > limit;
 }
-/// Whether a neighbour's z is off by more than k√(σ̂² + σ̂_n²), by squares.                                                       [eq. 4.16]
+/// Whether a neighbour's z is off by more than k√(σ̂² + σ̂_n²), by squares.                                      [theory: flying-pixel-step]
 template <class F>
 TOFRAY_FN Mask<F> is_no_noise(const camera::DecoderView& s, const FlyingImage& image, int neighbour, int count, F here, F variance) {
   const F apart = num::load<F>(image.z + neighbour, count) - here, noise = num::load<F>(image.noise + neighbour, count);

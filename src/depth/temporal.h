@@ -3,7 +3,7 @@
 #pragma once
 #include "depth/filters.h"
 
-/// A mean over frames that follow each other, pixel by pixel, and what it leaves of the noise.                 [theory: eq. 4.22]
+/// A mean over frames that follow each other, pixel by pixel, and what it leaves of the noise.            [theory: temporal-mean]
 namespace tofray::depth {
 
 /// Range and noise of a frame before; the range of an invalid pixel is NaN.

@@ -3,7 +3,8 @@
 #pragma once
 #include "camera/decoder/view.h"
 
-/// Which cycle: half paths from wrapped phases of one or more modulation frequencies.            [theory: eq. 4.4–4.7]
+/// Which cycle: half paths from wrapped phases of one or more modulation frequencies.
+///                                                   [theory: half-path, two-frequency-unwrapping, unwrapping, fusion]
 namespace tofray::depth {
 
 using num::Mask;
@@ -16,7 +17,8 @@ struct HalfPath {
   Mask<F> inconsistent;
 };
 
-/// How likely one of several cycles is, all of which are as likely before anything is measured: exp(−χ²/2) over the sum of all.    [eq. 4.31]
+/// How likely one of several cycles is, all of which are as likely before anything is measured: exp(−χ²/2) over the sum of all.
+///                                                                                                               [theory: cycle-likelihood]
 template <class F>
 class Odds {
  public:
@@ -43,7 +45,7 @@ TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F targ
   return F(m.half_wave) * (num::round_even(num::fma(target, F(m.per_half_wave), -turns)) + turns);
 }
 
-/// χ² of the cycle that the half path d of the reference stands for: Σ w·off² − (Σ w·off)²/Σ w.                            [eq. 4.31]
+/// χ² of the cycle that the half path d of the reference stands for: Σ w·off² − (Σ w·off)²/Σ w.            [theory: cycle-likelihood]
 template <class F>
 TOFRAY_FN F square_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F d) {
   F first = F(0.0f), second = F(0.0f);

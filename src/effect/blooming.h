@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Full wells that spill into their neighbours.                                                             [theory: eq. 3.32]
+/// Full wells that spill into their neighbours.                                                             [theory: blooming]
 struct Blooming {
   struct View {
     std::int32_t blooms;   ///< 1: they do

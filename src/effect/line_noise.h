@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Noise of columns and rows: one draw for all pixels of a line, another one in each raw frame.              [theory: eq. 3.15]
+/// Noise of columns and rows: one draw for all pixels of a line, another one in each raw frame.          [theory: column-noise]
 ///
 /// A frame has few lines and many pixels, so that each line is drawn once, before the first pixel is exposed: standard normals
 /// [raw_frames][width + height], columns first.

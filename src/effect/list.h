@@ -21,8 +21,8 @@
 ///     T::View           its numbers for kernels: a part of SensorView
 ///     T::set            sets them, out of a camera
 ///     T::on             its switch: whether a sensor has it
-///     T::bin            its numbers where n × n pixels are read as one                                    [theory: eq. 4.25, 4.26]
-///     T::variance       what it adds to the variance of A−B whatever the charge [e²]                              [theory: eq. 3.9]
+///     T::bin            its numbers where n × n pixels are read as one                    [theory: binned-charge, binned-patterns]
+///     T::variance       what it adds to the variance of A−B whatever the charge [e²]                          [theory: phase-noise]
 ///
 /// and its formula, one of three:
 ///
@@ -71,7 +71,8 @@ template <class... T, class Pixel>
 void bin_each(num::List<T...>, Pixel& pixel, int n) {
   (T::bin(pixel, n), ...);
 }
-/// Charges of n × n pixels add before they are read: what is of each pixel adds, what the amplifier does comes once. [theory: eq. 4.25, 4.26]
+/// Charges of n × n pixels add before they are read: what is of each pixel adds, what the amplifier does comes once.
+///                                                                                                 [theory: binned-charge, binned-patterns]
 template <class Pixel>
 void bin(Pixel& pixel, int n) {
   bin_each(Effects{}, pixel, n), bin_each(Always{}, pixel, n);
@@ -83,7 +84,7 @@ double variance_of_each(num::List<T...>, const Camera& camera) {
   ((sum += T::variance(camera)), ...);
   return sum;
 }
-/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].                [theory: eq. 3.9, 3.15]
+/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].    [theory: phase-noise, column-noise]
 template <class Camera>
 double output_variance(const Camera& camera) {
   return variance_of_each(Effects{}, camera);

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.        [theory: eq. 3.18]
+/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.    [theory: nonlinearity]
 struct ReadCurveView {
   const float* cell;  ///< [cells][2] what is read where a cell begins, and how much more at its end; null: the charge itself
   std::int32_t cells;
@@ -14,7 +14,7 @@ struct ReadCurveView {
   bool operator==(const ReadCurveView&) const = default;
 };
 
-/// What is read of a tap's charge, and how it grows with it.                                               [theory: eq. 3.18]
+/// What is read of a tap's charge, and how it grows with it.                                           [theory: nonlinearity]
 template <class F>
 struct ReadCharge {
   F value, slope;
@@ -42,7 +42,7 @@ TOFRAY_FN F cell_of(const ReadCurveView& curve, F read) {
   return cell;
 }
 
-/// Charge of which this is read: read_charge the other way round.                                          [theory: eq. 4.21]
+/// Charge of which this is read: read_charge the other way round.                                     [theory: noise-as-read]
 template <class F>
 TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
   // Most curves are nearly straight: along the line at a first guess lies the cell, unless its neighbour's beginning says otherwise.
@@ -62,7 +62,7 @@ TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
 }
 
 /// Full well per tap, and what is read of it. The well comes first: it holds charge, and the curve is that of the amplifier behind.
-///                                                                                                          [theory: eq. 3.18]
+///                                                                                                      [theory: nonlinearity]
 struct Nonlinearity {
   struct View {
     float full_well;  ///< [e⁻] of a tap

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Light of another camera that shines on the same surfaces.                                                [theory: eq. 3.24]
+/// Light of another camera that shines on the same surfaces.                                            [theory: interference]
 struct OtherCamera {
   /// Its numbers stand in the raw frames, which each have their own.
   struct View {

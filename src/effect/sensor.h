@@ -19,12 +19,12 @@ struct RawFrameView {
   float dark;               ///< dark electrons of a tap
   Gate gate_kind;
   const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
-  /// Gate for another camera's light, times its share of the own; null: there is no other camera.            [theory: eq. 3.24]
+  /// Gate for another camera's light, times its share of the own; null: there is no other camera.        [theory: interference]
   const float* other;
   float other_light;  ///< its share of the own
 };
 
-/// Light that meets a gate: Re Σ_m Z_m·e^{imτ} at any τ.                                              [theory: eq. 3.2]
+/// Light that meets a gate: Re Σ_m Z_m·e^{imτ} at any τ.                                          [theory: correlation]
 template <int orders, class F>
 TOFRAY_FN F correlated(const float* gate, const F* real, const F* imaginary) {
   F sum = F(0.0f);
@@ -37,7 +37,7 @@ enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, o
 
 /// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
 enum class Noise : std::int32_t { off, apart, merged };
-constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                      [theory: eq. 3.11]
+constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                  [theory: merged-noise]
 
 /// What a sensor has whatever its effects are.
 struct SensorBase {

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Background suppression: equal charge off both taps.                                                      [theory: eq. 3.7]
+/// Background suppression: equal charge off both taps.                                       [theory: background-suppression]
 struct Suppression {
   struct View {
     float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression

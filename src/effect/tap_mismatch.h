@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Taps of which one collects more than the other, and holds more before any charge comes.                  [theory: eq. 3.16]
+/// Taps of which one collects more than the other, and holds more before any charge comes.              [theory: tap-mismatch]
 struct TapMismatch {
   struct View {
     std::int32_t taps_differ;    ///< 1: by the two numbers below
@@ -38,7 +38,7 @@ struct TapMismatch {
     e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
   }
 
-  /// PRNU is of light alone: dark charge comes as if there were none.                                      [theory: eq. 3.6]
+  /// PRNU is of light alone: dark charge comes as if there were none.                                 [theory: charge-order]
   template <class F>
   TOFRAY_FN static Means<F> dark_less_in_gain(const View& s, const RawFrameView& frame, const Exposure<F>& e) {
     const F half = F(s.half_gain_mismatch), dark = F(frame.dark);

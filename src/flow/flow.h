@@ -107,7 +107,7 @@ struct Path {
 /// All light that reaches the pixel, over any number of paths: what stage 3 needs to know of it.
 ///
 ///     S    = Σ_paths rate
-///     Z_jm = Σ_paths a_m·e^{iψ_m}·rate·e^{imφ_j},   φ_j = 2π f_j n ℓ/c                             [theory: eq. 1.6]
+///     Z_jm = Σ_paths a_m·e^{iψ_m}·rate·e^{imφ_j},   φ_j = 2π f_j n ℓ/c                    [theory: received-phasors]
 ///
 /// for each modulation frequency f_j and odd harmonic m, at [j·orders + (m − 1)/2].
 template <class F>

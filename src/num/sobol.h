@@ -4,7 +4,7 @@
 #include "num/num.h"
 
 /// Points that fill the unit square evenly, however many of them are taken: the first two coordinates of Sobol's sequence, scrambled as Owen
-/// (1995) has it. Each point depends on its number and on seeds alone.                                     [theory: eq. 7.9]
+/// (1995) has it. Each point depends on its number and on seeds alone.                                 [theory: sobol-pairs]
 namespace tofray::num {
 
 /// The bits of a word from its other end.

@@ -3,7 +3,8 @@
 #pragma once
 #include "pipeline/setup.h"
 
-/// Which neighbours of a pixel see the same surface: what comes to them by other surfaces is nearly the same, too.      [theory: eq. 7.14]
+/// Which neighbours of a pixel see the same surface: what comes to them by other surfaces is nearly the same, too.
+///                                                                                                               [theory: like-neighbours]
 namespace tofray::pipeline {
 
 using flow::Pixels;

@@ -10,7 +10,7 @@
 #include "pipeline/rounds.h"
 #include "trace/anywhere.h"
 
-/// Light that goes from surface to surface before it reaches the camera.                                   [theory: eq. 7.6, 7.7]
+/// Light that goes from surface to surface before it reaches the camera.                          [theory: bounces, path-tracing]
 ///
 /// Paths are followed from the camera on, against the way of the light: from the first surface along a way that its BRDF chooses to the next
 /// one, at each of which all lights are asked directly. What the first surface itself gets from the lights is not part of this: that is

@@ -4,7 +4,7 @@
 #include "pipeline/store.h"
 #include "power/phasors.h"
 
-/// The light image: what stages 1 and 2 add to it, and what stage 3 reads from it.                          [theory: eq. 7.1]
+/// The light image: what stages 1 and 2 add to it, and what stage 3 reads from it.                      [theory: light-image]
 namespace tofray::pipeline {
 
 /// Modulation frequencies of which the image keeps something at each of its times, and planes of a time.

@@ -23,7 +23,7 @@ TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p,
 }
 
 /// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
-/// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
+/// modulation frequency: at most half its unambiguous range to either side.                             [theory: multipath-error]
 template <class F>
 struct MultipathError {
   F value;              ///< [m]
@@ -39,7 +39,8 @@ TOFRAY_FN MultipathError<F> multipath_error(const camera::DecoderView& s, const 
   return {(turns - num::round_even(turns)) * F(m.half_wave), slope, of_all.amplitude, of_direct.amplitude > F(0.0f)};
 }
 
-/// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light. [theory: eq. 7.13]
+/// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light.
+///                                                                                                                     [theory: path-noise]
 /// @param slope      dφ/dφ̂
 /// @param amplitude  |Ẑ| [e⁻]
 /// @param variance   of the light across Ẑ [e⁻²]

@@ -4,7 +4,7 @@
 #include "pipeline/alike.h"
 #include "pipeline/multipath.h"
 
-/// How well light that bounces is known, and how many paths a pixel needs.                             [theory: eq. 7.13]
+/// How well light that bounces is known, and how many paths a pixel needs.                           [theory: path-noise]
 ///
 /// A pixel's paths come in two halves that chance keeps apart: how far these are from each other says, on average over many pixels, how far
 /// their mean is from the truth.

@@ -129,7 +129,7 @@ TOFRAY_APART void store_surface_truth(const Setup& s, const flow::FrameView& out
   store_seen(out, p, seen);
 }
 
-/// Optical flow of what a pixel sees in the raw frames k … last − 1 to the time of the truth.               [theory: eq. 6.15]
+/// Optical flow of what a pixel sees in the raw frames k … last − 1 to the time of the truth.         [theory: raw-frame-flow]
 /// @param moment  at which they look at the scene
 /// @param truth   that is the time of the truth: nothing has moved since
 template <class F>

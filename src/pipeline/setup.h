@@ -12,7 +12,7 @@
 
 namespace tofray::pipeline {
 
-/// Light that goes from surface to surface before it comes back.                                       [theory: eq. 7.6]
+/// Light that goes from surface to surface before it comes back.                                       [theory: bounces]
 struct BounceView {
   std::int32_t most;     ///< surfaces that a path meets beyond the first one; 0: light comes straight back
   std::int32_t samples;  ///< paths of each pixel in the first round, at least
@@ -23,7 +23,7 @@ struct BounceView {
   bool operator==(const BounceView&) const = default;
 };
 
-/// Histograms of light by the length of its path.                                                      [theory: eq. 7.10]
+/// Histograms of light by the length of its path.                                                     [theory: transient]
 struct TransientView {
   std::int32_t bins;  ///< 0: there are none
   float first;        ///< where the first one begins [m]

@@ -3,7 +3,7 @@
 #pragma once
 #include "pipeline/bounce.h"
 
-/// Light by the length of its path, as a histogram for each pixel.                                        [theory: eq. 7.10]
+/// Light by the length of its path, as a histogram for each pixel.                                       [theory: transient]
 ///
 /// A pass of its own, which frames without histograms do not have. It goes the ways that the light of stages 1 and 2 goes, by the same
 /// functions: to what each pixel sees, straight from the lights, and from surface to surface with the same random numbers.

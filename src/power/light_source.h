@@ -3,7 +3,7 @@
 #pragma once
 #include "camera/light/view.h"
 
-/// Radiant intensity of a light source: I(θx, θy) = P·î, ∫î dω = 1.                                    [theory: eq. 2.1]
+/// Radiant intensity of a light source: I(θx, θy) = P·î, ∫î dω = 1.                          [theory: radiant-intensity]
 namespace tofray::power {
 
 /// Angles θx = θ·cos ψ = (θ/sin θ)·x, θy = θ·sin ψ of a direction (f-theta) [rad].

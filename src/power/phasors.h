@@ -3,7 +3,7 @@
 #pragma once
 #include "camera/pixel/pixel_delay.h"
 
-/// Light as phasors: where every path ends, whatever it came by.                                            [theory: eq. 1.6]
+/// Light as phasors: where every path ends, whatever it came by.                                   [theory: received-phasors]
 namespace tofray::power {
 
 using flow::Light;
@@ -49,7 +49,8 @@ TOFRAY_FN void sum_and_difference(const camera::PhasorView& s, const Wanted& wan
   }
 }
 
-/// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.  [theory: eq. 6.12]
+/// The mean of the light at several times within one exposure: what is seen at one of them, from the first on, is added.
+///                                                                                                               [theory: exposure-samples]
 template <class F>
 TOFRAY_APART void blend(const camera::PhasorView& s, const Wanted& wanted, const Light<F>& light, int sample, int samples, Light<F>& mean) {
   const F share = F(1.0f / static_cast<float>(samples));
@@ -128,7 +129,7 @@ TOFRAY_FN F sinc_turns(F t) {
 }
 
 /// Adds the harmonics of a modulation frequency that is swept over a band of width Δf: the mean over it is e^{imφ}·sinc(m·Δf·ℓ/c), φ at its middle.
-///                                                                                                        [theory: eq. 3.30]
+///                                                                                                 [theory: spread-spectrum]
 template <bool first, class F>
 TOFRAY_APART void add_swept_turns(const camera::ModulationView& modulation, int orders, const float* source, const Path<F>& path, F* real,
                                   F* imaginary) {

@@ -27,8 +27,9 @@ TOFRAY_FN Mask<F> before_facet(const Surface<F>& p, F x, F y, F z) {
   return num::fma(p.flat.x, x, num::fma(p.flat.y, y, p.flat.z * z)) > F(0.0f);
 }
 
-/// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],
-/// ℓ = |P − L| + |P|  [eq. 2.8]. What the truth shows of it is added to `sum`.
+/// One light source: E_s = I·max(0, n·l)·V/r_L²  [theory: irradiance], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)
+/// [theory: image-irradiance, pixel-power, signal-electrons], ℓ = |P − L| + |P|  [theory: path-length]. What the truth shows of it is added
+/// to `sum`.
 template <class F>
 TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray,
                            const Ray<F>& from_light, Mask<F> dark, F vignetting, Radiometry<F>& sum) {
@@ -59,7 +60,7 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
 }
 
 /// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel; of light from everywhere ρ is the albedo at
-/// the view.                                                                                                   [theory: eq. 2.10]
+/// the view.                                                                                              [theory: ambient-light]
 /// @param sun  unit vector toward it
 template <class F>
 TOFRAY_FN F ambient_rate(const camera::PowerView& s, const float* sun, const Surface<F>& p, Mask<F> dark, F vignetting) {

@@ -4,7 +4,7 @@
 #include "raw/merged_noise.h"
 #include "raw/poisson.h"
 
-/// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
+/// Stage 3: what the sensor collects in one raw frame.                                             [theory: charge-order]
 namespace tofray::raw {
 
 using effect::Chain;
@@ -66,7 +66,7 @@ TOFRAY_FN F known_difference(const effect::SensorView& s, const effect::RawFrame
   return num::select(whole, difference, otherwise);
 }
 
-/// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
+/// PRNU is of light alone: dark charge comes as if there were none.                                     [theory: charge-order]
 template <class F>
 TOFRAY_FN void keep_dark_charge(const effect::SensorView& s, const effect::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
   const Means<F> less = effect::TapMismatch::dark_less_in_gain(s, frame, e);
@@ -94,7 +94,8 @@ TOFRAY_FN Expected<F> expected(const effect::SensorView& s, const effect::RawFra
   return out;
 }
 
-/// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.     [theory: eq. 3.35]
+/// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.
+///                                                                                                                  [theory: noiseless-raw]
 template <class F>
 TOFRAY_FN F level_without_noise(const effect::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
   Chain<F> chain{expected<false>(s, s.frame[k], light, orders, e).charge, e.offset};

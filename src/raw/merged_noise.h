@@ -4,7 +4,7 @@
 #include "effect/list.h"
 #include "raw/correlation.h"
 
-/// Shot and read noise in one draw.                                                                    [theory: eq. 3.11]
+/// Shot and read noise in one draw.                                                                [theory: merged-noise]
 namespace tofray::raw {
 
 using effect::FrameIndex;
@@ -12,7 +12,7 @@ using effect::TapWords;
 
 /// Shot and read noise of a tap in one normal z: Cornish and Fisher's expansion of the quantile of Poisson(λ) + Normal(0, σ²), whose third and
 /// fourth cumulants are λ. With V = λ + σ² and r = λ/V,
-/// N = λ + √V·z + r·((z² − 1)/6 + (z/√V)·((z² − 3)/24 − r·(2z² − 5)/36)).                                 [eq. 3.11]
+/// N = λ + √V·z + r·((z² − 1)/6 + (z/√V)·((z² − 3)/24 − r·(2z² − 5)/36)).                     [theory: merged-noise]
 template <class F>
 TOFRAY_FN F merged_normal(const effect::SensorView& s, F mean, F z) {
   const F variance = mean + F(s.read_variance), root = num::sqrt(variance), per_root = num::inverse_root(variance, root);

@@ -4,7 +4,7 @@
 #include "effect/list.h"
 #include "raw/correlation.h"
 
-/// Poisson counts and read noise, drawn apart.                                                   [theory: eq. 3.6, 3.10]
+/// Poisson counts and read noise, drawn apart.                                  [theory: charge-order, poisson-quantile]
 namespace tofray::raw {
 
 using effect::draw;
@@ -28,7 +28,7 @@ TOFRAY_FN F poisson_by_inversion(F mean, F u) {
 }
 
 /// Poisson count from a standard normal: Cornish and Fisher's expansion of the quantile with the correction for whole numbers,
-/// N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋.                                                       [eq. 3.10]
+/// N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋.                                       [theory: poisson-quantile]
 template <class F>
 TOFRAY_FN F poisson_by_expansion(F mean, F z) {
   const F held = num::max(mean, F(inversion_limit));

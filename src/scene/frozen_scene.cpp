@@ -330,7 +330,7 @@ void FrozenScene::change_shapes() {
 namespace {
 
 /// From where an object's points are seen to where they are seen at another time. What is at X before it moves is at A·(X − o) now and at
-/// B·(X − q) then: B·Aᵀ·P + B·(o − q).                                                                     [theory: eq. 6.11]
+/// B·(X − q) then: B·Aᵀ·P + B·(o − q).                                                          [theory: camera-frame-motion]
 void put_step(const shape::Frame& here, const shape::Frame& there, MotionView& out) {
   shape::copy(there.axes * (here.origin - there.origin), out.step);
   for (int k = 0; k < 3; ++k) {
@@ -342,7 +342,7 @@ void put_step(const shape::Frame& here, const shape::Frame& there, MotionView& o
 
 }  // namespace
 
-/// How all moves from each moment to the time of the truth.                                                 [theory: eq. 6.15]
+/// How all moves from each moment to the time of the truth.                                           [theory: raw-frame-flow]
 void FrozenScene::look_to_truth(const std::optional<Pose>& pose) {
   view_.to_truth = nullptr;
   if (!times_.to_truth) return;
@@ -359,7 +359,7 @@ void FrozenScene::look_to_truth(const std::optional<Pose>& pose) {
   view_.to_truth = to_truth_.data();
 }
 
-/// P is seen at axes·(X − position); both X and the camera move.                                              [theory: eq. 6.11]
+/// P is seen at axes·(X − position); both X and the camera move.                                   [theory: camera-frame-motion]
 void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
   const double now = times_.truth_s(), later = now + times_.period_s;
   const MovingCamera camera = pose ? MovingCamera{camera_frame(*pose)} : camera_at(scene_.camera, now);

@@ -7,7 +7,7 @@
 namespace tofray::shape {
 
 /// Of the rays that meet a triangle those that meet a surface there: the picture, bilinear in its own texels, says ½ or more at the mean of
-/// the corners' texture coordinates.                                                                           [theory: eq. 2.31]
+/// the corners' texture coordinates.                                                                      [theory: alpha-cut-out]
 /// Of each triangle by itself, so that it does not matter in which order they are looked at. Apart: few meshes are cut out.
 template <class F>
 TOFRAY_APART Mask<F> not_cut_out(const MeshTree& mesh, std::int32_t triangle, const MeshParts<F>& parts, const Mask<F>& inside) {

@@ -9,7 +9,7 @@ namespace tofray::shape {
 template <class F>
 struct MeshPlace {
   F first, second, third;  ///< the corners' weights
-  F per_square;            ///< 1/n² (theory: eq. 2.20)
+  F per_square;            ///< 1/n² [theory: barycentric]
 };
 
 /// What the triangle's corners say of a point.
@@ -22,7 +22,7 @@ struct MeshDetail {
 };
 
 /// The corners' weights are areas, of the triangles that the point's foot makes with each side: b_1 = (p × e_2)·n/n², b_2 = (e_1 × p)·n/n²,
-/// b_0 = 1 − b_1 − b_2, with p from the first corner, e_1, e_2 two sides and n = e_1 × e_2.            [theory: eq. 2.20]
+/// b_0 = 1 − b_1 − b_2, with p from the first corner, e_1, e_2 two sides and n = e_1 × e_2.         [theory: barycentric]
 /// @param facet  the mesh's first
 /// @param x,y,z  the point, in the camera's frame
 template <class F>

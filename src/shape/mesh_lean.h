@@ -24,7 +24,7 @@ TOFRAY_FN Direction<F> unit_or_zero(const Direction<F>& a) {
 }
 
 /// With sides e_1, e_2 and their steps (Δu_1, Δv_1), (Δu_2, Δv_2): P_u ∝ (e_1 Δv_2 − e_2 Δv_1)·s, P_v ∝ (e_2 Δu_1 − e_1 Δu_2)·s, s the
-/// sign of Δu_1 Δv_2 − Δu_2 Δv_1.                                                                             [theory: eq. 2.28]
+/// sign of Δu_1 Δv_2 − Δu_2 Δv_1.                                                                           [theory: normal-map]
 /// @param facet  the mesh's first
 template <class F>
 TOFRAY_FN MeshAxes<F> mesh_axes(const Facet& facet, Int<F> triangle) {
@@ -48,7 +48,7 @@ TOFRAY_FN MeshAxes<F> mesh_axes(const Facet& facet, Int<F> triangle) {
   return {along(v2, v1), along(F(0.0f) - u2, F(0.0f) - u1), unit_or_zero(mesh_turned(facet, cross(1, 2), cross(2, 0), cross(0, 1)))};
 }
 
-/// n ∝ x·X + y·Y + z·N: X is P_u without its part along N, Y at right angles to both and against P_v.           [theory: eq. 2.28]
+/// n ∝ x·X + y·Y + z·N: X is P_u without its part along N, Y at right angles to both and against P_v.         [theory: normal-map]
 /// @param normal  N, of unit length
 /// @param lean    x, y, z
 /// @return N where texture coordinates do not say which way they grow

@@ -14,7 +14,7 @@ struct RadialMotion {
   num::Mask<F> inward;
 };
 
-/// Without a difference of like numbers, of polynomials and their quotient:                             [theory: eq. 1.7]
+/// Without a difference of like numbers, of polynomials and their quotient:                       [theory: brown-conrady]
 ///     p(r'²) − p(r²) = c·(k1 + k2(r² + r'²) + k3(r⁴ + r²r'² + r'⁴))
 template <class F>
 TOFRAY_FN RadialMotion<F> brown_conrady_motion(const ProjectionView& lens, F from, F to, F c) {
@@ -32,7 +32,7 @@ TOFRAY_FN RadialMotion<F> brown_conrady_motion(const ProjectionView& lens, F fro
   return {g, num::fnma(g, below_change, change) / below(from), never};
 }
 
-/// θ_d = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸), g = θ_d/r:                                                    [theory: eq. 1.8]
+/// θ_d = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸), g = θ_d/r:                                                    [theory: fisheye]
 ///     g' − g = ((θ_d' − θ_d)·r − θ_d·(r' − r))/(r·r'),   θ' − θ = atan((r' − r)/(1 + r·r'))
 template <class F>
 TOFRAY_FN RadialMotion<F> fisheye_motion(const ProjectionView& lens, F from, F to, F c) {

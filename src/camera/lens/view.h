@@ -46,7 +46,8 @@ struct ScatterTerm {
   const float* column;   ///< [2·radius + 1]
 };
 
-/// Light that lens and filter scatter over the sensor, kept·δ + Σ_terms K, and after it charge that neighbours collect. [theory: eq. 3.27, 7.4]
+/// Light that lens and filter scatter over the sensor, kept·δ + Σ_terms K, and after it charge that neighbours collect.
+///                                                                                                        [theory: crosstalk, lens-scatter]
 struct ScatterView {
   float kept;  ///< 1 − share of the lens's scatter
   std::int32_t terms;

@@ -7,7 +7,7 @@
 
 namespace tofray::pipeline {
 
-/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: eq. 3.32]
+/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: blooming]
 TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
   const float* const over = overflow_in(s, job);

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// Light from surface to surface, into the light image.                                                 [theory: eq. 7.6]
+/// Light from surface to surface, into the light image.                                                 [theory: bounces]
 struct Bounces {
   static constexpr const char* name = "bounces";
   static constexpr const char* does = "light from surface to surface";

@@ -36,7 +36,7 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   }
 }
 
-/// Flags of flying pixels.                                                                              [theory: eq. 4.11]
+/// Flags of flying pixels.                                                                    [theory: flying-pixel-limit]
 struct FlyingPixels {
   static constexpr const char* name = "flying_pixels";
   static constexpr const char* does = "flags of flying pixels";

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// Draws of the sensor's columns and rows, for all pixels of each.                                      [theory: eq. 3.15]
+/// Draws of the sensor's columns and rows, for all pixels of each.                                  [theory: column-noise]
 struct LineNoise {
   static constexpr const char* name = "line_noise";
   static constexpr const char* does = "noise of the sensor's columns and rows";

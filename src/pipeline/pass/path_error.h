@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// How far the two halves of a pixel's paths are apart.                                                 [theory: eq. 7.13]
+/// How far the two halves of a pixel's paths are apart.                                               [theory: path-noise]
 struct PathError {
   static constexpr const char* name = "path_error";
   static constexpr const char* does = "difference of the two halves of a pixel's paths";

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// The standard error of a pixel's light, by its own error and its neighbours', and who needs more paths.  [theory: eq. 7.13]
+/// The standard error of a pixel's light, by its own error and its neighbours', and who needs more paths.  [theory: path-noise]
 struct PathNoise {
   static constexpr const char* name = "path_noise";
   static constexpr const char* does = "standard error of bounced light, and who needs more paths";

@@ -5,7 +5,7 @@
 #include "pipeline/pass/pass.h"
 
 /// Light that lens and filter scatter over the sensor, and what neighbours then collect of it, as passes over the light image.
-///                                                                                                     [theory: eq. 7.4, 3.27]
+///                                                                                           [theory: lens-scatter, crosstalk]
 /// Each value is a sum in the order of its sources' rows and columns, whatever the machine. Nothing comes in from beyond the edges, and what
 /// goes there is lost.
 namespace tofray::pipeline {

@@ -5,7 +5,7 @@
 #include "pipeline/gather.h"
 #include "pipeline/pass/pass.h"
 
-/// Light that bounces, smoothed over neighbours that see the same surface. Direct light never is.          [theory: eq. 7.15]
+/// Light that bounces, smoothed over neighbours that see the same surface. Direct light never is.    [theory: path-smoothing]
 namespace tofray::pipeline {
 
 constexpr int smoothed_radius = 7;  ///< [px]

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// Direct and indirect light of the image, together.                                                    [theory: eq. 7.1]
+/// Direct and indirect light of the image, together.                                                [theory: light-image]
 struct SumLight {
   static constexpr const char* name = "sum_light";
   static constexpr const char* does = "direct and bounced light together";

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// Histograms of light by the length of its path.                                                       [theory: eq. 7.10]
+/// Histograms of light by the length of its path.                                                      [theory: transient]
 struct TransientHistogram {
   static constexpr const char* name = "transient";
   static constexpr const char* does = "histograms of light by path length";
