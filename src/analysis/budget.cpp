@@ -14,7 +14,7 @@
 #include "base/constants.h"
 #include "camera/lens/lens.h"
 #include "camera/readout/image_camera.h"
-#include "simulator/exposure.h"
+#include "simulator/exposure_control.h"
 #include "tofray/error.h"
 
 namespace tofray {
@@ -47,7 +47,7 @@ Camera exposed_for(const Camera& pixel, const AutoExposure& law, const AmbientCa
   constexpr double still = 1e-3;
   Camera camera = pixel, following = pixel;
   following.auto_exposure = law, following.auto_exposure.speed = 1;  // each frame goes all of the way
-  simulator::Exposure exposure(following, Stage::depth);
+  simulator::ExposureControl exposure(following, Stage::depth);
   Scene scene;
   scene.ambient = light.ambient, scene.camera.pose = light.pose;
   double before = 0;

@@ -22,7 +22,7 @@ struct OrenNayar {
     return {all, {static_cast<float>(rho * a), static_cast<float>(rho * b), 0}, 0, all, 2, -1};
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
+  TOFRAY_INLINE static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
     const F across = num::max(num::fnma(cosine.light, cosine.view, cosine.between), F(0.0f));
     const F larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
     return num::fma(of.number[1], across / larger, of.number[0]) * F(per_pi);
@@ -31,7 +31,7 @@ struct OrenNayar {
   ///
   ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                         [theory: oren-nayar-albedo]
   template <class F>
-  TOFRAY_FN static F albedo(const Finish<F>& of, F cosine) {
+  TOFRAY_INLINE static F albedo(const Finish<F>& of, F cosine) {
     const F c = num::min(num::max(cosine, F(0.0f)), F(1.0f)), s = num::sqrt(num::fnma(c, c, F(1.0f)));
     const F theta = num::atan2_turns(s, c) * F(6.28318531f);
     // tan θ·(1 − sin³ θ) without the pole: sin θ·cos θ·(1 + sin θ + sin² θ)/(1 + sin θ)

@@ -25,7 +25,7 @@ struct Phasor {
   F real, imaginary;
 };
 template <class F>
-TOFRAY_FN Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
+TOFRAY_INLINE Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
   F real = F(0.0f), imaginary = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
@@ -44,7 +44,7 @@ struct Estimate {
 };
 
 template <class F>
-TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
+TOFRAY_INLINE Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
   const auto [real, imaginary] = phasor(s, m, difference);
   const F turns = num::atan2_turns(imaginary, real);
   const F positive = num::select(turns < F(0.0f), turns + F(1.0f), turns);
@@ -53,7 +53,7 @@ TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::Decod
 
 /// A table's value at φ̂, on a straight line from node to node, and the step between these.
 template <class F>
-TOFRAY_FN F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
+TOFRAY_INLINE F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
   const F place = turns * F(static_cast<float>(s.wiggling_nodes));
   const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
   F value;
@@ -62,7 +62,7 @@ TOFRAY_FN F at_phase(const camera::DecoderView& s, const float* table, F turns, 
 }
 /// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                     [theory: wiggling-correction]
 template <class F>
-TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
+TOFRAY_INLINE F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
   F step;
   const F correction = at_phase(s, m.wiggling, turns, step);
   slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
@@ -70,7 +70,7 @@ TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulatio
 }
 /// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.  [theory: noise-estimate]
 template <class F>
-TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
+TOFRAY_INLINE F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
   if (m.light == nullptr) return F(m.per_contrast);
   F step;
   return at_phase(s, m.light, turns, step);
@@ -80,7 +80,7 @@ TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::Deco
 /// A, and dark charge below it.                                                   [theory: noise-estimate, noise-as-read]
 /// \tparam plain  as of decode
 template <bool plain, class F>
-TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
+TOFRAY_INLINE F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
   if (!plain && s.read.cell != nullptr) {
     const F dark_read = effect::read_charge(s.read, F(s.grey_dark)).value;
@@ -93,7 +93,7 @@ TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
 
 /// Opposite reference phases must cancel: |D_k + D_k'| > max(limit, k√(2V̂)) says that something moved.
 template <class F>
-TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F variance) {
+TOFRAY_INLINE Mask<F> phases_disagree(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F variance) {
   F most = F(0.0f);
   for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[2 * j]] + difference[m.pair[2 * j + 1]]));
   return most * most > num::max(F(s.asymmetry_factor) * variance, F(s.asymmetry_square));
@@ -104,7 +104,7 @@ TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::De
 /// @param collected   electrons of both taps together
 /// @param difference  D_k [e⁻]
 template <class F>
-TOFRAY_FN F suppressed(const camera::DecoderView& s, F difference, F collected) {
+TOFRAY_INLINE F suppressed(const camera::DecoderView& s, F difference, F collected) {
   const F excess = F(0.5f) * (collected - num::abs(difference)) - F(s.suppression_threshold);
   return num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
 }
@@ -113,8 +113,8 @@ TOFRAY_FN F suppressed(const camera::DecoderView& s, F difference, F collected) 
 /// @param collected   electrons of both taps together                                    [theory: suppression-noise]
 /// @param per_slope   electrons of each one that is read
 template <class F>
-TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                                 F collected, F per_slope) {
+TOFRAY_INLINE F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference,
+                                     const Estimate<F>& e, F collected, F per_slope) {
   F across = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
@@ -128,7 +128,8 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
 
 /// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.   [theory: noise-as-read]
 template <class F>
-TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected, F per_slope) {
+TOFRAY_INLINE F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected,
+                            F per_slope) {
   const F charge = F(0.5f) * collected;
   if (!(s.suppression_threshold > 0)) return charge;
   F removed = F(0.0f);
@@ -141,8 +142,8 @@ TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModula
 ///                                                                                                                  [theory: noise-as-read]
 /// @param known  electrons of both taps that are no signal: ambient light and dark current
 template <class F>
-TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                             F known) {
+TOFRAY_INLINE F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                                 F known) {
   constexpr int turns = 6;
   const F both_full = F(2 * s.read.most);
   const F per_amplitude = light_per_amplitude(s, m, e.turns);
@@ -163,8 +164,8 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
 /// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                       [theory: noise-estimate]
 /// \tparam plain  as of decode
 template <bool plain = false, class F>
-TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                        F ambient) {
+TOFRAY_INLINE F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                            F ambient) {
   const float dark = s.dark_rate_both * m.integration_time;
   if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
   const F electrons = num::fma(e.amplitude, light_per_amplitude(s, m, e.turns), ambient);
@@ -175,7 +176,7 @@ TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModula
 
 /// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².  [theory: noise-estimate]
 template <class F>
-TOFRAY_FN F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
+TOFRAY_INLINE F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
   const F signal = num::max(e.amplitude, F(1e-3f));
   return signal * signal / (variance * F(m.variance_factor) * (slope * slope));
 }
@@ -187,7 +188,7 @@ struct Inverse {
   F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                  [theory: range-slope]
 };
 template <class F>
-TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
+TOFRAY_INLINE Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
   const F along = num::fma(ux, F(s.light[0]), num::fma(uy, F(s.light[1]), uz * F(s.light[2])));
   const F per_length = F(1.0f) / (path_length - along);
   const F range = F(0.5f) * num::fma(path_length, path_length, F(-s.light_square)) * per_length;
@@ -195,13 +196,13 @@ TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length
 }
 
 template <class F>
-TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) {
+TOFRAY_INLINE num::Int<F> bit(Mask<F> m, Bits value) {
   return num::select(m, num::Int<F>(value), num::Int<F>(0));
 }
 
 /// What was a warning makes the depth invalid, where the camera was told so.
 template <class F>
-TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> flags) {
+TOFRAY_INLINE num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> flags) {
   const num::Int<F> none(0);
   return num::select((flags & num::Int<F>(s.rejected)) == none, none, num::Int<F>(rejected));
 }
@@ -210,7 +211,7 @@ TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> fla
 /// @param i       its number
 /// \tparam plain  as of decode
 template <bool plain, class F>
-TOFRAY_FN F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
+TOFRAY_INLINE F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
   const camera::DecodeModulation& m = s.modulation[i];
   F phi = unwiggle(s, m, e.turns, slope);
   if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
@@ -227,8 +228,8 @@ struct OfFrequency {
 };
 /// What each says alone, in the cycle that unwrapping found for all of them.         [theory: half-path, single-frequency]
 template <class F>
-TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
-                              OfFrequency<F>* out) {
+TOFRAY_INLINE void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
+                                  OfFrequency<F>* out) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   const F grey = grey_sum<false>(s, difference);
   for (int i = 0; i < s.modulations; ++i) {
@@ -255,8 +256,8 @@ TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference,
 /// @param p           the pixels, for what is known of each
 /// \tparam plain      true: the sensor has none of the effects that depth knows of, and there is no code for them
 template <bool plain, class F>
-TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
-                          const flow::Pixels& p) {
+TOFRAY_INLINE Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                              const flow::Pixels& p) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);
@@ -293,8 +294,8 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
   return out;
 }
 template <class F>
-TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
-                          const flow::Pixels& p) {
+TOFRAY_INLINE Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                              const flow::Pixels& p) {
   return s.effects != 0 ? decode<false>(s, difference, clipped, outside, ray, p) : decode<true>(s, difference, clipped, outside, ray, p);
 }
 

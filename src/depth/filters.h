@@ -13,8 +13,10 @@ struct RangeImage {
   const float* noise;  ///< σ̂ [m]
   const std::uint16_t* flags;
   std::int32_t width, height;
-  TOFRAY_FN bool valid(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0; }
-  TOFRAY_FN float variance(int at) const { return noise[at] * noise[at]; }
+  TOFRAY_INLINE bool valid(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0;
+  }
+  TOFRAY_INLINE float variance(int at) const { return noise[at] * noise[at]; }
 };
 
 struct Filtered {
@@ -22,7 +24,7 @@ struct Filtered {
 };
 
 /// Gaussian with the weights of the valid pixels in the window, normalised to their sum.                [theory: gaussian-filter]
-TOFRAY_FN Filtered gaussian(const RangeImage& image, int x, int y, int radius, const float* weights) {
+TOFRAY_INLINE Filtered gaussian(const RangeImage& image, int x, int y, int radius, const float* weights) {
   float sum = 0, total = 0, variance = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
@@ -38,7 +40,7 @@ TOFRAY_FN Filtered gaussian(const RangeImage& image, int x, int y, int radius, c
 }
 
 /// Median of the valid pixels in the window; of an even number the lower one of the middle two.           [theory: median-filter]
-TOFRAY_FN Filtered median(const RangeImage& image, int x, int y, int radius) {
+TOFRAY_INLINE Filtered median(const RangeImage& image, int x, int y, int radius) {
   float sorted[(2 * 4 + 1) * (2 * 4 + 1)], variance = 0;
   int count = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
@@ -64,7 +66,7 @@ struct Reach {
 
 /// Gaussian over the image times Tukey's biweight (1 − Δ²/s²)² over the range, normalised to their sum. What is left of the noise is
 /// that of the function's slope: weights depend on ranges, too.                                          [theory: bilateral-filter]
-TOFRAY_FN Filtered bilateral(const RangeImage& image, int x, int y, int radius, const float* weights, const Reach& reach) {
+TOFRAY_INLINE Filtered bilateral(const RangeImage& image, int x, int y, int radius, const float* weights, const Reach& reach) {
   const int middle = y * image.width + x;
   const float here = image.range[middle], variance = image.variance(middle);
   float sum = 0, total = weights[0] * weights[0];
@@ -95,7 +97,7 @@ TOFRAY_FN Filtered bilateral(const RangeImage& image, int x, int y, int radius, 
 /// more than the goal.                                                                                    [theory: adaptive-filter]
 /// @param factor  k²
 /// @param goal    square of the noise that is good enough [m²]
-TOFRAY_FN Filtered adaptive(const RangeImage& image, int x, int y, int radius, float factor, float goal) {
+TOFRAY_INLINE Filtered adaptive(const RangeImage& image, int x, int y, int radius, float factor, float goal) {
   constexpr float least = 1e-12f;  // [m²] of a neighbour: a micrometre
   const int middle = y * image.width + x;
   const float here = image.range[middle], variance = image.variance(middle);

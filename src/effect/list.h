@@ -100,29 +100,29 @@ constexpr bool changes_charge = requires(const SensorView& s, const RawFrameView
   T::template change_charge<true>(s, frame, 0, index, e, chain);
 };
 template <class T, class F>
-constexpr bool changes_reading = requires(const SensorView& s, Means<F>& charge) {
+constexpr bool changes_reading = requires(const SensorView& s, TapPair<F>& charge) {
   T::change_reading(s, charge);
 };
 
 template <class... T, class F>
-TOFRAY_FN void change_rates(num::List<T...>, const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
+TOFRAY_INLINE void change_rates(num::List<T...>, const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
   static_assert(((changes_rates<T, F> + changes_charge<T, F> + changes_reading<T, F> == 1) && ...), "an effect has one formula");
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_rates<One, F>) One::change_rates(frame, orders, light, rates);
   };
   (one(num::List<T>{}), ...);
 }
 template <bool drawn, class... T, class Kept, class F>
-TOFRAY_FN void change_charge(num::List<T...>, const SensorView& s, const RawFrameView& frame, int k, FrameIndex index, Kept& e,
-                             Chain<F>& chain) {
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+TOFRAY_INLINE void change_charge(num::List<T...>, const SensorView& s, const RawFrameView& frame, int k, FrameIndex index, Kept& e,
+                                 Chain<F>& chain) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_charge<One, F>) One::template change_charge<drawn>(s, frame, k, index, e, chain);
   };
   (one(num::List<T>{}), ...);
 }
 template <class... T, class F>
-TOFRAY_FN void change_reading(num::List<T...>, const SensorView& s, Means<F>& charge) {
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+TOFRAY_INLINE void change_reading(num::List<T...>, const SensorView& s, TapPair<F>& charge) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_reading<One, F>) One::change_reading(s, charge);
   };
   (one(num::List<T>{}), ...);

@@ -22,7 +22,7 @@ struct ReadCharge {
 
 /// @param curve  not null; below 0 its first line goes on, beyond its end the last
 template <class F>
-TOFRAY_FN ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
+TOFRAY_INLINE ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
   const F place = charge * F(curve.per_cell);
   const F cell = num::min(num::max(num::floor(place), F(0.0f)), F(static_cast<float>(curve.cells - 1)));
   F value, step;
@@ -32,7 +32,7 @@ TOFRAY_FN ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
 
 /// The cell in which this is read, by halves: a curve may bend to either side. There is a power of two of cells.
 template <class F>
-TOFRAY_FN F cell_of(const ReadCurveView& curve, F read) {
+TOFRAY_INLINE F cell_of(const ReadCurveView& curve, F read) {
   F cell = F(0.0f), value, step;
   for (std::int32_t half = curve.cells / 2; half > 0; half /= 2) {
     const F upper = cell + F(static_cast<float>(half));
@@ -44,7 +44,7 @@ TOFRAY_FN F cell_of(const ReadCurveView& curve, F read) {
 
 /// Charge of which this is read: read_charge the other way round.                                     [theory: noise-as-read]
 template <class F>
-TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
+TOFRAY_INLINE F charge_of(const ReadCurveView& curve, F read) {
   // Most curves are nearly straight: along the line at a first guess lies the cell, unless its neighbour's beginning says otherwise.
   const F last = F(static_cast<float>(curve.cells - 1));
   F cell = num::min(num::max(num::floor(read * F(curve.per_cell)), F(0.0f)), last), value, step, next, unused;
@@ -107,7 +107,7 @@ struct Nonlinearity {
   }
 
   template <class F>
-  TOFRAY_FN static void change_reading(const View& s, Means<F>& charge) {
+  TOFRAY_INLINE static void change_reading(const View& s, TapPair<F>& charge) {
     if (s.read.cell == nullptr) return;
     charge = {read_charge(s.read, num::min(charge.a, F(s.full_well))).value, read_charge(s.read, num::min(charge.b, F(s.full_well))).value};
   }

@@ -16,7 +16,7 @@ inline constexpr Number integration_time{base::Dimension::time, {1e-9, 1e3}, "20
     frame_rate{base::Dimension::frequency, {1e-4, 1e5}, "5 Hz"};
 
 /// What files may say of a struct.
-Form form_of(const Table& table);
+ValueForm form_of(const Table& table);
 /// Its keys: all of them, or those of one kind.
 constexpr int all_kinds = -1;
 std::vector<Key> keys_of(const Table& table, int kind = all_kinds);

@@ -54,8 +54,8 @@ struct ScatterView {
   std::int32_t separable;  ///< all of them are, but for the last one if it is what neighbours collect, which always is
   std::int32_t shares;     ///< 1: the last one is; it takes what those before have brought
   const ScatterTerm* term;
-  [[nodiscard]] TOFRAY_FN bool is_sharing(int item) const { return shares != 0 && item + 1 == terms; }
-  [[nodiscard]] TOFRAY_FN bool has_rows(int item) const { return separable != 0 || is_sharing(item); }
+  [[nodiscard]] TOFRAY_INLINE bool is_sharing(int item) const { return shares != 0 && item + 1 == terms; }
+  [[nodiscard]] TOFRAY_INLINE bool has_rows(int item) const { return separable != 0 || is_sharing(item); }
   bool operator==(const ScatterView&) const = default;
 };
 

@@ -8,7 +8,7 @@
 namespace tofray::pipeline {
 
 /// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: blooming]
-TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
+TOFRAY_INLINE void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
   const float* const over = overflow_in(s, job);
   float spilled = 0;
@@ -30,7 +30,7 @@ struct Blooming {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     for (int at = p.index; at < p.index + p.count; ++at) bloom_pixel(w.s, w.job, at % w.s.lens.width, at / w.s.lens.width);
   }
 };

@@ -13,17 +13,17 @@ struct LineNoise {
   static constexpr Over over = Over::raw_frames;
   static constexpr int most_threads = most_block_threads;
 
-  TOFRAY_FN static effect::FrameIndex frame_of(const PassWork& w) { return {w.job.index_low, w.job.index_high}; }
+  TOFRAY_INLINE static effect::FrameIndex frame_of(const PassWork& w) { return {w.job.index_low, w.job.index_high}; }
   /// All lines of raw frame k.
   template <class F>
-  TOFRAY_FN static void raw_frame(const PassWork& w, int k) {
+  TOFRAY_INLINE static void raw_frame(const PassWork& w, int k) {
     const camera::SensorView& sensor = w.s.sensor;
     float* const normals = line_normals_in(w.s, w.job);
     effect::LineNoise::draw_all_lines<F>(sensor, k, frame_of(w), effect::of_column, sensor.width, normals);
     effect::LineNoise::draw_all_lines<F>(sensor, k, frame_of(w), effect::of_row, sensor.height, normals);
   }
   /// One line of one raw frame.
-  TOFRAY_FN static void line(const PassWork& w, int number) {
+  TOFRAY_INLINE static void line(const PassWork& w, int number) {
     effect::LineNoise::draw_line(w.s.sensor, frame_of(w), number, line_normals_in(w.s, w.job));
   }
 };

@@ -14,7 +14,7 @@ struct PathError {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     store_path_error<F>(w.s, w.job.light, w.item, p);
   }
 };

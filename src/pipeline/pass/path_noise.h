@@ -14,7 +14,7 @@ struct PathNoise {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     store_path_noise<F>(w.s, w.job.light, w.item, p);
   }
 };

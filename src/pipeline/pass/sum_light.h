@@ -14,7 +14,7 @@ struct SumLight {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     sum_light<F>(w.s, w.job.light, p);
   }
 };

@@ -20,11 +20,11 @@ struct Metered {
 
 /// Integration times that follow the light: those of frame i come of the raw frames of frame i − 1, from frame 0 on.
 /// [theory: brightness, auto-exposure]
-class Exposure {
+class ExposureControl {
  public:
   /// @param camera  as it is read out
   /// @throws Error (bad_input) where times follow the light, and raw frames are not computed
-  Exposure(const Camera& camera, Stage last);
+  ExposureControl(const Camera& camera, Stage last);
 
   /// Whether times follow the light.
   [[nodiscard]] bool on() const { return law_.speed > 0; }
