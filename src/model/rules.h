@@ -33,9 +33,6 @@ void codes_by_bits(Adc& adc, const Given& given);
 void filter_at_the_light(Camera& camera, const Given& given);
 
 void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints);
-void boxes_are_thick(const Box& box, Complaints& complaints);
-void capsules_have_a_length(const Capsule& capsule, Complaints& complaints);
-void meshes_have_triangles(const Mesh& mesh, Complaints& complaints);
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints);
 void poses_look_somewhere(const Pose& pose, Complaints& complaints);
 void objects_move_one_way(const Object& object, Complaints& complaints);
