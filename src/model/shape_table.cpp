@@ -184,7 +184,8 @@ const Table& table_of<Mesh>() {
           words<&Mesh::file>("file", "a file", "chair.glb",
                              "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
               .required(),
-          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "scale from the file's numbers to metres: 0.001 for a file in mm"),
+          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "scale from the file's numbers to metres: 0.001 for a file in mm")
+              .scales_lengths(),
           choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
                             "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
                             "none: the file's axes are the world's"),
