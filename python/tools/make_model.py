@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes python/tofray/_model.py: the public structs as classes of Python, with types and docstrings.
+"""Writes python/tofray/_model.py: the public structs as classes of Python, with types and docstrings; _model_names.py: their names, which
+the package offers; and _arrays.py: the arrays of a frame.
 
 Names, types and values come from the compiled module, which has them from the compiler; what a member is, its unit and its range come from
 its row in src/model (tofray_rows, which the build puts beside the package). Classes, and members that have no row (results, and what readers write), are said by the comments of include/tofray.
@@ -239,6 +240,18 @@ def model_text() -> str:
     return "".join(parts)
 
 
+def names_text() -> str:
+    from tofray import _native
+
+    names = ", ".join(f'"{name}"' for name in sorted(name for name, _ in _native.structs()))
+    return '''# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names of the classes of _model.py, for who does not read all of it. Written by python/tools/make_model.py; do not edit."""
+
+MODEL = (
+''' + textwrap.fill(names, 136, initial_indent="    ", subsequent_indent="    ") + ",\n)\n"
+
+
 def arrays_text() -> str:
     from tofray import _native
 
@@ -277,7 +290,7 @@ if TYPE_CHECKING:
 
 def main() -> None:
     folder = ROOT / "python/tofray"
-    for file, text in ((folder / "_model.py", model_text()), (folder / "_arrays.py", arrays_text())):
+    for file, text in ((folder / "_model.py", model_text()), (folder / "_model_names.py", names_text()), (folder / "_arrays.py", arrays_text())):
         if "--check" in sys.argv:
             if file.read_text(encoding="utf-8") != text:
                 sys.exit(f"{file} is not what python/tools/make_model.py writes")
