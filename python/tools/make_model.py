@@ -48,6 +48,12 @@ def declared(code: str) -> list[str]:
     return [words[-1], *(other.partition("=")[0].strip() for other in others)] if len(words) > 1 else []
 
 
+def reasons() -> dict[str, str]:
+    """What has happened where a flag is the reason, by its name: rows of flags.h, which are members where structs count them."""
+    rows = (ROOT / "include/tofray/flags.h").read_text(encoding="utf-8").partition("#define TOFRAY_REASONS")[2].partition("#define")[0]
+    return dict(re.findall(r"row\((\w+),[^\"]*\"[^\"]*\", *\"([^\"]*)\"", rows))
+
+
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
@@ -80,6 +86,8 @@ def comments() -> dict[str, dict[str, str]]:
                 for name in members:
                     out[struct][name] += " " + goes_on[1]
                 continue
+            if struct and line.strip().startswith("TOFRAY_REASONS("):
+                out[struct].update(reasons())
             code, _, comment = line.partition("//")
             names = declared(code) if struct else []
             if names:
