@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Draws what docs/theory/03-pixel.md shows of merged noise: the law of a tap's charge, and how far equation 3.11 is from it.
+// Draws what docs/theory/03-pixel.md shows of merged noise: the law of a tap's charge, and how far [theory: merged-noise] is from it.
 //     noise_law FOLDER      writes noise-law.png and noise-distance.png
 #include <cmath>
 #include <filesystem>
@@ -18,7 +18,7 @@ using pictures::Chart;
 using pictures::Curve;
 using pictures::curve_color;
 
-/// Equation 3.11 without its last term.
+/// [theory: merged-noise] without its last term.
 double second_order(double mean, double read, double z) {
   const double variance = mean + read * read;
   return mean + std::sqrt(variance) * z + mean / variance * (z * z - 1) / 6;
@@ -33,11 +33,11 @@ Chart law_chart() {
   const auto charge = [&](double z) { return expansion(mean, read, z); };
   Chart chart;
   chart.title = "Charge of one tap: shot noise of 2.4 e\u207b and read noise of 4 e\u207b";
-  chart.notes = {"where equation 3.11 is furthest from the true law: half of the area between both is 0.00002"};
+  chart.notes = {"where merged noise is furthest from the true law: half of the area between both is 0.00002"};
   chart.x_label = "charge [e\u207b]", chart.y_label = "density, and differences \u00d7 100 [1/e\u207b]";
   chart.x_ticks = {-15, -10, -5, 0, 5, 10, 15, 20};
-  Curve exact = curve("true law", 0), ours = curve("eq. 3.11", 1, true);
-  Curve of_ours = curve("(eq. 3.11 \u2212 true) \u00d7 100", 2), of_normal = curve("(normal \u2212 true) \u00d7 100", 3);
+  Curve exact = curve("true law", 0), ours = curve("merged noise", 1, true);
+  Curve of_ours = curve("(merged noise \u2212 true) \u00d7 100", 2), of_normal = curve("(normal \u2212 true) \u00d7 100", 3);
   for (double z = -4; z <= 4.3; z += 0.1) {
     const double x = charge(z), density = normal_density(z) / slope_of(charge, z);
     if (x < -15 || x > 20) continue;
@@ -54,7 +54,7 @@ Chart law_chart() {
 Chart distance_chart() {
   Chart chart;
   chart.title = "Distance from the true law (total variation)";
-  chart.notes = {"full: equation 3.11; dashed: without its last term; below 4 e\u207b of read noise both noises are drawn apart"};
+  chart.notes = {"full: merged noise; dashed: without its last term; below 4 e\u207b of read noise both noises are drawn apart"};
   chart.x_label = "mean \u03bb, power of ten of electrons", chart.y_label = "total variation";
   chart.x_ticks = {-1, 0, 1, 2, 3, 4};
   chart.log_y = true;

@@ -62,7 +62,7 @@ def simple_camera(phases=4, frequency=60e6, kind="sine", harmonics=1):
 
 
 def wiggling_mm(phases, frequency, harmonics):
-    """Peak of equation 3.5 in mm: odd harmonics 8/(pi m)^2 of square light and gate, of which those leak that are 1 or -1 modulo the phases."""
+    """Peak of [theory: wiggling] in mm: odd harmonics 8/(pi m)^2 of square light and gate, of which those leak that are 1 or -1 modulo the phases."""
     turns = np.linspace(0, 2 * np.pi, 20001)[:-1]
     total = np.zeros(len(turns), complex)
     for k in range(phases):
@@ -99,7 +99,7 @@ def closed(table):
         distances = np.linspace(1.0, 2.4, 500)  # two humps and more, within the first 2.498 m
         camera = simple_camera(phases, 60e6, "rectangular", 8)
         bias = budget(camera, distances)["bias_m"]
-        add(f"wiggling of square light, {phases} phases, 60 MHz", "equation 3.5, 8 harmonics", wiggling_mm(phases, 60e6, 8), 1e3 * float(bias.max() - bias.min()) / 2, "mm", 0.01)
+        add(f"wiggling of square light, {phases} phases, 60 MHz", "[theory: wiggling], 8 harmonics", wiggling_mm(phases, 60e6, 8), 1e3 * float(bias.max() - bias.min()) / 2, "mm", 0.01)
     return "## Closed forms\n\nA camera that is made simple: a point of light at the lens, no poles, no edges, one modulation frequency.\n\n" + table(
         ["", "closed form", "it says", "`tofray.budget` says", ""], rows), figures
 

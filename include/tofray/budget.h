@@ -25,7 +25,7 @@ struct BudgetRequest {
   bool auto_exposure = false;                  ///< exposures as AutoExposure leaves them of that wall; false: those of the mode
 };
 
-/// Shares of the range's variance by cause; their sum is 1.                                       [theory: eq. 4.33]
+/// Shares of the range's variance by cause; their sum is 1.                                 [theory: noise-by-cause]
 struct VarianceShares {
   double signal_shot = 0;   ///< shot noise of the camera's illumination
   double ambient_shot = 0;  ///< shot noise of ambient light
@@ -71,7 +71,7 @@ struct BudgetRow {
   double noise_estimate_m = 0;  ///< the camera's estimate of sigma_m (Depth::noise_m); NaN: there is no range
   VarianceShares share;         ///< shares of sigma_m squared
   double exponent = 0;          ///< σ grows with the distance to this power: 1 where signal shot noise rules, 2 where all else does
-  double wrong_cycle = 0;       ///< probability that the range is whole cycles off; NaN: no range   [theory: eq. 4.29, 4.30]
+  double wrong_cycle = 0;       ///< probability that the range is whole cycles off; NaN: no range [theory: noisy-phasor, wrong-cycle-share]
   double bias_m = 0;            ///< range without noise less the true one: drift, wiggling, whole ambiguity ranges; NaN: no range
   bool saturated = false;       ///< a lit tap or code is at its end
   bool low_signal = false;      ///< σ is above the decoding's noise threshold, or the amplitude below its own

@@ -169,7 +169,7 @@ struct Pixel {
   double blooming_limit_e = 0;  ///< a pixel that receives more than this from its neighbours in a lit raw frame is flagged as saturated
 };
 
-/// The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits (theory 3.8).
+/// The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits [theory: adc].
 struct Adc {
   int bits = 12;
   double step_e_per_dn = 1;  ///< s
@@ -302,7 +302,7 @@ struct AutoExposure {
   double longest_s = 0;   ///< upper limit of the longest lit integration time; 0: that of the mode
 };
 
-/// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints (equation 2.11).
+/// Light on a pixel: by radiometry (theory 2), or by the formula that the paper prints [theory: paper-formula].
 enum class PowerModel { tofray, paper_literal };
 
 /// A camera in one of its modes: lens, light sources, pixel, ADC, the sequence of raw frames, and how they are decoded.

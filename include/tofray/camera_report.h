@@ -30,10 +30,10 @@ struct CameraQuestion {
 /// Range noise and wrong cycles at one distance.
 struct NoiseAt {
   double z_m = 0;      ///< distance on the optical axis
-  double sigma_m = 0;  ///< standard deviation of the range, expected; NaN: nothing comes back        [theory: eq. 4.9]
+  double sigma_m = 0;  ///< standard deviation of the range, expected; NaN: nothing comes back  [theory: noise-estimate]
   /// Share of pixels whose range is whole cycles off, whatever flag they get: how often noise makes unwrapping choose another cycle, of
   /// phases that have the exact density of a noisy phasor's. 0 with one modulation frequency; NaN where there is no phase.
-  /// [1] [theory: eq. 4.29, 4.30]
+  /// [1] [theory: noisy-phasor, wrong-cycle-share]
   double wrong_cycle = 0;
   bool saturated = false;  ///< there is no depth
 };

@@ -32,8 +32,8 @@ struct ChainRawFrame {
   double modulation_frequency_hz = 0, reference_phase_rad = 0, integration_time_s = 0;
   double signal_e = 0;                  ///< ground truth S, both taps
   double direct_e = 0, indirect_e = 0;  ///< electrons by one surface and by several, before the lens scatters them
-  double multipath_m = 0;               ///< what that does to the half path                    [theory: eq. 7.8]
-  double path_noise_m = 0;              ///< the standard error of that                         [theory: eq. 7.13]
+  double multipath_m = 0;               ///< what that does to the half path            [theory: multipath-error]
+  double path_noise_m = 0;              ///< the standard error of that                       [theory: path-noise]
   double tap_a_e = 0, tap_b_e = 0;
   double code_dn = 0;
   double difference_e = 0;  ///< D_k that depth comes from: out of the code, or unrounded where noise is off
@@ -42,20 +42,20 @@ struct ChainRawFrame {
 /// One pixel's phase at one modulation frequency.
 struct ChainPhase {
   double modulation_frequency_hz = 0;
-  double amplitude_e = 0;       ///< |Z|                                                  [theory: eq. 4.2]
+  double amplitude_e = 0;       ///< |Z|                                           [theory: phase-estimate]
   double measured_turns = 0;    ///< arg Z / 2 pi, with the wiggling in it [turns]
-  double calibrated_turns = 0;  ///< with the wiggling and the pixel's delay taken out [turns]    [eq. 4.3]
-  double half_wave_m = 0;       ///< R, the unambiguous half path                         [eq. 4.4]
+  double calibrated_turns = 0;  ///< with the wiggling and the pixel's delay taken out [turns]  [theory: wiggling-correction]
+  double half_wave_m = 0;       ///< R, the unambiguous half path               [theory: half-path]
   double cycles = 0;            ///< whole cycles that unwrapping added [1]
   double half_path_m = 0;       ///< R (cycles + turns)
-  double noise_e = 0;           ///< 1 sigma of each part of Z, as the camera estimates it       [eq. 4.9]
+  double noise_e = 0;           ///< 1 sigma of each part of Z, as the camera estimates it  [theory: noise-estimate]
 };
 
 /// One way to unwrap: a cycle of the modulation frequency with the fewest, and of each other one the half path nearest to it.
 struct UnwrapCandidate {
   std::vector<double> cycles;  ///< whole cycles of each of the chain's phases [1]
-  double range_m = 0;          ///< that they mean                                         [theory: eq. 4.7, 4.8]
-  double cost_m2 = 0;          ///< sum of the squares of how far the other half paths are off [m2] [eq. 4.6]
+  double range_m = 0;          ///< that they mean                                  [theory: fusion, range-and-z]
+  double cost_m2 = 0;          ///< sum of the squares of how far the other half paths are off [m2] [theory: unwrapping]
   bool chosen = false;         ///< its cost is the least: what unwrapping takes
 };
 
@@ -95,10 +95,11 @@ PixelChain pixel_chain(const Frame& frame, const Camera& camera, int u, int v, N
 
 /// What the samples of a pixel lie on: A−B over the reference phase τ, at each of the chain's modulation frequencies,
 ///
-///     D(τ) = o + S Σ_m a_m cos(m (τ + φ) + ψ_m)                                                  [theory: eq. 3.2]
+///     D(τ) = o + S Σ_m a_m cos(m (τ + φ) + ψ_m)                                              [theory: correlation]
 ///
-/// with the camera's harmonics (a_m, ψ_m), S and φ such that it has the phasor that was measured (eq. 4.2), and o the mean of what the
-/// samples are off. Light of several paths, a bent read-out and wells that are full have other curves; this is the nearest to theirs.
+/// with the camera's harmonics (a_m, ψ_m), S and φ such that it has the phasor that was measured [theory: phase-estimate], and o the mean
+/// of what the samples are off. Light of several paths, a bent read-out and wells that are full have other curves; this is the nearest to
+/// theirs.
 /// @param points  evenly spaced over a turn, from 0 on
 /// @return [phase][point] e; NaN where there is no phase
 /// @throws Error (bad_input) where the camera has another sequence
@@ -109,7 +110,8 @@ struct BounceShare {
   int first = 0, last = 0;
   double share = 0;                 ///< share of the electrons of all lit raw frames, 0 … 1 [1]
   std::vector<double> electrons;    ///< electrons by raw frame, before the lens scatters them [e]
-  std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]  [theory: eq. 7.8]
+  std::vector<double> multipath_m;  ///< by raw frame: what it adds to the half path once all before it are there [m]
+                                    ///<                                                                       [theory: multipath-error]
 };
 
 /// One pixel's light, bounce by bounce. Light paths are chosen by pixel, bounce and sample alone, so that frames with fewer bounces follow

@@ -33,7 +33,7 @@ struct Geometry {
 /// Any number of paths may end at a pixel: what a surface reflects, what comes over several of them, what a transparent one lets through.
 /// Either each has a power and a length, or `phasor_w` says what all of a light's come to,
 ///
-///     Σ_paths power · e^{i m 2π f n ℓ/c}          n the camera's refractive index                    [theory: eq. 1.4]
+///     Σ_paths power · e^{i m 2π f n ℓ/c}          n the camera's refractive index                     [theory: phasor]
 ///
 /// for each modulation frequency f, in the order in which the mode's raw frames first have them, and each odd harmonic m. What light and
 /// pixel make of a harmonic (waveform, contrast, bandwidth) is added by the camera. Depth takes every ℓ to begin where the camera's lights
@@ -56,7 +56,7 @@ struct PixelLight {
 ///
 /// Bin k is centred at ℓ_k = first_m + (k + ½)·bin_width_m, and all of its light counts as of that length:
 ///
-///     S = Σ_k S_k,   Z_jm = a_m·e^{iψ_m}·Σ_k S_k·e^{i m 2π f_j n ℓ_k/c}                            [theory: eq. 7.11]
+///     S = Σ_k S_k,   Z_jm = a_m·e^{iψ_m}·Σ_k S_k·e^{i m 2π f_j n ℓ_k/c}                 [theory: transient-to-phasor]
 ///
 /// All of the camera's lights have one waveform (a_m, ψ_m), since a histogram does not say whose light is whose.
 struct Transient {

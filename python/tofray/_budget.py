@@ -84,8 +84,8 @@ def budget(camera: Camera, distance_m: Iterable[float] = (0.5, 1.0, 2.0, 4.0), r
            pixel: tuple[float, float] | None = None, auto_exposure: bool = False) -> Budget:
     """Expected light, charge and range noise of one pixel before a matt wall, and the noise's variance by cause.
 
-    σ² = |dr/dd|² Σ_i w_i² σ_i² / (Σ_i w_i)², of each modulation frequency i by the variances of its raw frames (equation 4.33). A single frame,
-    before filters; without multipath, scattered light, crosstalk, patterns of the specimen and other cameras.
+    σ² = |dr/dd|² Σ_i w_i² σ_i² / (Σ_i w_i)², of each modulation frequency i by the variances of its raw frames [theory: noise-by-cause].
+    A single frame, before filters; without multipath, scattered light, crosstalk, patterns of the specimen and other cameras.
 
     Parameters
     ----------

@@ -160,7 +160,7 @@ def _orders(phases: int, orders: Sequence[int] | None) -> list[int]:
 
 
 def _fit(frequency: float, data: WallPhases, walls: Sequence[int], orders: list[int]) -> FrequencyResult:
-    """Offset, wiggling and pixels' phases together. Noise of a phase that is corrected has the correction's slope (theory, equation 4.9)."""
+    """Offset, wiggling and pixels' phases together. Noise of a phase that is corrected has the correction's slope [theory: noise-estimate]."""
     measured = data.measured[list(walls)]
     first = _least_squares(frequency, data, walls, orders, 1.0)
     slope = 1.0
@@ -236,7 +236,7 @@ def calibrate_phase(camera: Camera, walls: Iterable[tuple[float, Iterable[Frame 
                     orders: Sequence[int] | None = None, held_out: Sequence[int] | None = None) -> SpecimenCalibration:
     """Phase offset, wiggling and each pixel's phase, by modulation frequency.
 
-    By how much a measured phase is too large is taken to be o + P(u, v) + Σ cₘ cos mφ̂ + sₘ sin mφ̂ (theory, equation 4.35); all of it is
+    By how much a measured phase is too large is taken to be o + P(u, v) + Σ cₘ cos mφ̂ + sₘ sin mφ̂ [theory: specimen-calibration]; all of it is
     found together by least squares over all pixels. Noise is what the frames of each wall say it is.
 
     Parameters

@@ -87,7 +87,7 @@ def _unknown_of_key(key: str, numbers: Mapping[str, tuple[str, float, float, flo
 
 
 class Harmonics:
-    """Amplitudes and phases of a light's correlation: a_1, and r_m = a_m/a_1 and psi_m of odd m (equation 3.12)."""
+    """Amplitudes and phases of a light's correlation: a_1, and r_m = a_m/a_1 and psi_m of odd m [theory: measured-correlation]."""
 
     def __init__(self, waveform: Any, contrast: float, place: str) -> None:
         self.place = place

@@ -743,7 +743,8 @@ class Pixel(Record):
 
 
 class Adc(Record):
-    """The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits (theory 3.8).
+    """The converter of A−B to codes: code = round((A−B)/step + mid), clipped to its bits
+    [theory: adc].
 
     Attributes
     ----------
@@ -3021,12 +3022,12 @@ class NoiseAt(Record):
     z_m : float, m
         Distance on the optical axis.
     sigma_m : float, m
-        Standard deviation of the range, expected; NaN: nothing comes back [theory: eq. 4.9].
+        Standard deviation of the range, expected; NaN: nothing comes back [theory: noise-estimate].
     wrong_cycle : float, 1
         Share of pixels whose range is whole cycles off, whatever flag they get: how often noise
         makes unwrapping choose another cycle, of phases that have the exact density of a noisy
-        phasor's. 0 with one modulation frequency; NaN where there is no phase. [theory: eq. 4.29,
-        4.30].
+        phasor's. 0 with one modulation frequency; NaN where there is no phase.
+        [theory: noisy-phasor, wrong-cycle-share].
     saturated : bool
         There is no depth.
     """
@@ -3201,9 +3202,9 @@ class ChainRawFrame(Record):
     indirect_e : float, e
         Electrons by one surface and by several, before the lens scatters them.
     multipath_m : float, m
-        What that does to the half path [theory: eq. 7.8].
+        What that does to the half path [theory: multipath-error].
     path_noise_m : float, m
-        The standard error of that [theory: eq. 7.13].
+        The standard error of that [theory: path-noise].
     tap_a_e : float, e
     tap_b_e : float, e
     code_dn : float, DN
@@ -3265,19 +3266,19 @@ class ChainPhase(Record):
     ----------
     modulation_frequency_hz : float, Hz
     amplitude_e : float, e
-        |Z| [theory: eq. 4.2].
+        |Z| [theory: phase-estimate].
     measured_turns : float, turns
         Arg Z / 2 pi, with the wiggling in it.
     calibrated_turns : float, turns
-        With the wiggling and the pixel's delay taken out [eq. 4.3].
+        With the wiggling and the pixel's delay taken out [theory: wiggling-correction].
     half_wave_m : float, m
-        R, the unambiguous half path [eq. 4.4].
+        R, the unambiguous half path [theory: half-path].
     cycles : float, 1
         Whole cycles that unwrapping added.
     half_path_m : float, m
         R (cycles + turns).
     noise_e : float, e
-        1 sigma of each part of Z, as the camera estimates it [eq. 4.9].
+        1 sigma of each part of Z, as the camera estimates it [theory: noise-estimate].
     """
     __slots__ = ("modulation_frequency_hz", "amplitude_e", "measured_turns", "calibrated_turns", "half_wave_m", "cycles", "half_path_m",
                  "noise_e")
@@ -3321,9 +3322,9 @@ class UnwrapCandidate(Record):
     cycles : list[float], 1
         Whole cycles of each of the chain's phases.
     range_m : float, m
-        That they mean [theory: eq. 4.7, 4.8].
+        That they mean [theory: fusion, range-and-z].
     cost_m2 : float, m2
-        Sum of the squares of how far the other half paths are off [eq. 4.6].
+        Sum of the squares of how far the other half paths are off [theory: unwrapping].
     chosen : bool
         Its cost is the least: what unwrapping takes.
     """
@@ -3491,7 +3492,8 @@ class BounceShare(Record):
     electrons : list[float], e
         Electrons by raw frame, before the lens scatters them.
     multipath_m : list[float], m
-        By raw frame: what it adds to the half path once all before it are there [theory: eq. 7.8].
+        By raw frame: what it adds to the half path once all before it are there
+        [theory: multipath-error].
     """
     __slots__ = ("first", "last", "share", "electrons", "multipath_m")
     first: int

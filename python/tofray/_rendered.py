@@ -91,7 +91,7 @@ def from_pictures(
 
     Each ray takes its nearest pixel: that one's label, normal and reflectivity, and z of the plane through it with that normal::
 
-        z = z_p (n . p) / (n . r),     p = (x_p, y_p, 1) of the pixel, r = (x, y, 1) of the ray           (equation 6.13)
+        z = z_p (n . p) / (n . r),     p = (x_p, y_p, 1) of the pixel, r = (x, y, 1) of the ray           [theory: picture-ray]
 
     Nothing is a mean of several pixels, so that there is nothing between a near and a far surface. All arrays may have one axis more
     before the others: a moment for each raw frame, drawn at ``exposure_times``, where something moves. Row 0 is the topmost.
@@ -113,7 +113,7 @@ def from_pictures(
     distance : "z" or "range"
         Whether ``z`` is along the optical axis, or along each pixel's ray.
     normal : float array [height, width, 3], 1, optional
-        Of any side and length; where 0 or NaN, and where left out, made of z (equation 6.14).
+        Of any side and length; where 0 or NaN, and where left out, made of z [theory: normals-of-z].
     normal_axes : "optical", "opengl", "body", or Pose
         Which way the normals' axes point: x right, y down, z forward; x right, y up, z backward; x forward, y left, z up; or in the
         world, in which the camera has this pose.

@@ -493,8 +493,8 @@ def camera_report(camera: Camera, question: CameraQuestion | None = None) -> Cam
     Returns
     -------
     CameraReport
-        ``noise`` has one entry for each ambient light and reflectivity; its ``at`` has ``z_m``, ``sigma_m`` (equation 4.9), ``wrong_cycle``
-        (equations 4.29 and 4.30) and ``saturated`` of each distance. ``warnings`` says what makes no sense about the design.
+        ``noise`` has one entry for each ambient light and reflectivity; its ``at`` has ``z_m``, ``sigma_m`` [theory: noise-estimate],
+        ``wrong_cycle`` [theory: noisy-phasor, wrong-cycle-share] and ``saturated`` of each distance. ``warnings`` says what makes no sense about the design.
 
     Raises
     ------

@@ -205,7 +205,7 @@ def expected_phase(camera: Camera, frequency: float, distances: list[float]) -> 
     out = []
     for distance in distances:
         r = distance * length
-        path = r + np.sqrt(r * r - 2 * r * along + square)  # light where decoding takes it to be (theory, equation 4.15)
+        path = r + np.sqrt(r * r - 2 * r * along + square)  # light where decoding takes it to be [theory: several-lights]
         out.append(2 * np.pi * frequency * camera.refractive_index / _LIGHT_SPEED * path)
     return np.stack(out)
 

@@ -14,7 +14,7 @@
 #include "base/constants.h"
 #include "camera/lens/lens.h"
 #include "camera/readout/image_camera.h"
-#include "simulator/exposure.h"
+#include "simulator/exposure_control.h"
 #include "tofray/error.h"
 
 namespace tofray {
@@ -41,7 +41,7 @@ double longest_of(const Camera& camera) {
   return out;
 }
 
-/// The camera with the exposures that its own law leaves after many frames of a wall.                    [theory: eq. 4.27, 4.28]
+/// The camera with the exposures that its own law leaves after many frames of a wall.         [theory: brightness, auto-exposure]
 Camera exposed_for(const Camera& pixel, const AutoExposure& law, const AmbientCase& light, const Geometry& wall) {
   constexpr int most_frames = 40;
   constexpr double still = 1e-3;

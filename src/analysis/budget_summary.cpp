@@ -20,7 +20,7 @@ void add_responsivity(const Camera& pixel, const BudgetRow& row, BudgetSummary& 
     const double joule = row.power_w * one.integration_time_s;
     if (!(joule > 0)) continue;
     out.correlated_e_per_j += one.amplitude_e / joule / count;
-    // Light without modulation comes to both taps alike: what differs are their gains.                      [theory: eq. 3.16]
+    // Light without modulation comes to both taps alike: what differs are their gains.                  [theory: tap-mismatch]
     out.uncorrelated_e_per_j += 0.5 * std::fabs(pixel.pixel.tap_gain_mismatch) * one.signal_e / joule / count;
   }
   if (out.uncorrelated_e_per_j > 0) out.rejection = out.correlated_e_per_j / out.uncorrelated_e_per_j;

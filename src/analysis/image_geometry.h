@@ -9,7 +9,8 @@
 /// Where the pixels of an image look, for who draws a camera or moves things with the cursor.
 namespace tofray::analysis {
 
-/// The camera whose pixels are those of the image: region and binning are in its numbers.              [theory: eq. 4.24 to 4.26]
+/// The camera whose pixels are those of the image: region and binning are in its numbers.
+///                                                                         [theory: image-pixels, binned-charge, binned-patterns]
 /// @param profile  was seen to be good
 Camera image_camera(const Camera& profile);
 

@@ -7,7 +7,7 @@
 
 namespace tofray::analysis {
 
-/// The table by which the camera takes wiggling out of a modulation frequency's phase.                    [theory: eq. 4.3]
+/// The table by which the camera takes wiggling out of a modulation frequency's phase.        [theory: wiggling-correction]
 class PhaseCorrection {
  public:
   PhaseCorrection(const camera::DecoderView& decoder, const camera::DecodeModulation& modulation);

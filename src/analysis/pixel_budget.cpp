@@ -105,9 +105,9 @@ void PixelBudget::add_noise(const std::vector<ReadFrame>& frames, BudgetRow& row
   const double apart = static_cast<double>(decoder.light_square);
   double along = 0;
   for (std::size_t i = 0; i < 3; ++i) along += u[i] * static_cast<double>(decoder.light[i]);
-  // ℓ of the range, with the light where the decoder takes it to be: 4.8 the other way round.
+  // ℓ of the range, with the light where the decoder takes it to be: [theory: range-and-z] the other way round.
   const double range = row.range_m, length = range + std::sqrt(std::max(range * range - 2 * range * along + apart, 0.0));
-  const double slope = 2 * (length - range) / (length - along);  // [theory: eq. 4.14]
+  const double slope = 2 * (length - range) / (length - along);  // [theory: range-slope]
   row.beyond_ambiguity = 0.5 * length > static_cast<double>(decoder.common_range);
   double weights = 0;
   Terms fused{};

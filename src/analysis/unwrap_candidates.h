@@ -9,7 +9,7 @@
 
 namespace tofray::analysis {
 
-/// What unwrapping chooses from: each cycle of the reference, by cost.                                [theory: eq. 4.6, 4.7]
+/// What unwrapping chooses from: each cycle of the reference, by cost.                          [theory: unwrapping, fusion]
 /// @param turns   of each modulation frequency, calibrated
 /// @param weight  1/sigma^2 of each half path [1/m^2]
 /// @return none where there is one modulation frequency, or where a phase is not a number

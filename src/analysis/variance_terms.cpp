@@ -12,7 +12,7 @@ namespace tofray::analysis {
 
 namespace {
 
-/// What is read of a tap's charge, and the slope there.                                              [theory: eq. 3.18]
+/// What is read of a tap's charge, and the slope there.                                          [theory: nonlinearity]
 struct TapRead {
   double value, slope;
 };
@@ -40,7 +40,7 @@ ReadFrame read_frame(const camera::SensorView& sensor, const Collected& light) {
   const double difference = gain_a * light.own_a - gain_b * light.own_b + 2 * half * (0.5 * light.ambient + light.dark) + 2 * offset;
   const double budget = of(sensor.suppression_budget);
   const double excess = sensor.suppression_threshold > 0 ? std::max(std::min(a, b) - of(sensor.suppression_threshold), 0.0) : 0;
-  const double removed = std::min(excess, budget);  // [theory: eq. 3.7]
+  const double removed = std::min(excess, budget);  // [theory: background-suppression]
   a -= removed, b -= removed;
   const TapRead read_a = tap_read(sensor, a), read_b = tap_read(sensor, b);
   // While suppression holds the smaller tap at its threshold, all of the noise of both is in the larger one.

@@ -8,7 +8,7 @@
 #include "analysis/phase_correction.h"
 #include "camera/frozen_camera.h"
 
-/// What the noise of a range is made of, cause by cause.                                            [theory: eq. 4.33]
+/// What the noise of a range is made of, cause by cause.                                      [theory: noise-by-cause]
 namespace tofray::analysis {
 
 enum Cause : std::size_t { signal_shot, ambient_shot, dark_shot, read_noise, adc_rounding, suppression_noise, line_noise };
@@ -30,7 +30,8 @@ struct ReadFrame {
   Terms variance{};       ///< of A−B [e²]
 };
 
-/// Expected values and variances through 3.6: gains and offsets of the taps, background suppression, nonlinearity, converter.
+/// Expected values and variances through [theory: charge-order]: gains and offsets of the taps, background suppression, nonlinearity,
+/// converter.
 ReadFrame read_frame(const camera::SensorView& sensor, const Collected& light);
 
 /// A modulation frequency's phase, and the noise of the half path that it says.

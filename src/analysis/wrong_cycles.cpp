@@ -75,7 +75,7 @@ class PhaseErrors {
   std::vector<double> place_, weight_, above_, below_;
 };
 
-/// P(|M θ₂ − N θ₁| > π): the errors of q of equation 4.5, which is rounded.
+/// P(|M θ₂ − N θ₁| > π): the errors of q of [theory: two-frequency-unwrapping], which is rounded.
 double of_two(const PhaseErrors& first, const PhaseErrors& second, double m, double n) {
   double sum = 0;
   for (std::size_t i = 0; i < PhaseErrors::count(); ++i) {
@@ -131,7 +131,7 @@ bool is_never_wrong(const std::vector<NoisyPhase>& phases, const std::vector<int
   return std::sqrt(square) < half_apart(cycles, reference);
 }
 
-/// One choice of cycles by equation 4.6, with half paths in ambiguity ranges: whether it is another than that of exact phases.
+/// One choice of cycles by [theory: unwrapping], with half paths in ambiguity ranges: whether it is another than that of exact phases.
 bool chooses_wrongly(const std::vector<double>& error, const std::vector<int>& cycles, std::size_t reference) {
   double best = 0;
   int chosen = 0;

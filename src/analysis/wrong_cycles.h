@@ -9,7 +9,7 @@ namespace tofray::analysis {
 
 /// Density of the phase of a phasor of length 1/σ with normal noise of variance 1 in each part, about its own phase:
 ///
-///     p(θ) = e^{−ρ²/2}/2π + ρ cos θ/√(2π) · e^{−ρ² sin² θ/2} · Φ(ρ cos θ),   ρ = 1/σ        [theory: eq. 4.29]
+///     p(θ) = e^{−ρ²/2}/2π + ρ cos θ/√(2π) · e^{−ρ² sin² θ/2} · Φ(ρ cos θ),   ρ = 1/σ    [theory: noisy-phasor]
 ///
 /// @param theta  [rad] −π…π
 /// @param sigma  [rad] standard deviation of small errors, above 0
@@ -24,7 +24,7 @@ struct NoisyPhase {
 };
 
 /// Probability that the half paths of several modulation frequencies are unwrapped to other cycles than their own: for two by integration,
-/// for more by 16,384 quasi-random phases through equation 4.6.                                       [theory: eq. 4.30]
+/// for more by 16,384 quasi-random phases through [theory: unwrapping].                      [theory: wrong-cycle-share]
 /// Noise is normal: where codes are longer than the noise that they round, it says too much or too little.
 /// @param cycles  of each modulation frequency in the ambiguity range, without a common divisor
 double wrong_cycle_probability(const std::vector<NoisyPhase>& phases, const std::vector<int>& cycles);

@@ -16,7 +16,7 @@ std::size_t place_light(const pipeline::Setup& setup, const flow::FrameView& wan
 struct LightOrigin {
   bool known = false;
   bool mixed = false, noise = false;  ///< what else is known of it
-  shape::Frame camera{};
+  shape::CoordinateFrame camera{};
   bool operator==(const LightOrigin&) const = default;
 };
 /// Of a frame; what moves, or comes from elsewhere, is not known twice.

@@ -7,7 +7,7 @@ namespace tofray::base {
 
 /// The camera whose reference phases are those that its raw data truly have: what they are off by is in them.
 ///
-///     τ' = τ + 4π·f·n·d_off/c + φ_off(f)                                                          [theory: eq. 4.32]
+///     τ' = τ + 4π·f·n·d_off/c + φ_off(f)                                                 [theory: recording-offsets]
 ///
 /// @param camera  was seen to be good
 Camera with_offsets(const Camera& camera);

@@ -12,7 +12,7 @@
 
 namespace tofray::base {
 
-constexpr int read_cells = 1024;  ///< equal lines that stand for a pixel's nonlinearity in kernels; a power of two   [theory: eq. 3.18]
+constexpr int read_cells = 1024;  ///< equal lines that stand for a pixel's nonlinearity in kernels; a power of two  [theory: nonlinearity]
 
 /// A measured function of one variable as profiles give it: a limited not-a-knot spline through its samples, held at its first and last
 /// value outside their range (a cubic that runs on would soon be far from anything measured). One sample is a constant. So it is never

@@ -107,7 +107,7 @@ std::vector<double> periodic_slopes(const std::vector<double>& h, const std::vec
 /// Whether the cubic with these slopes at its ends and the secant g runs from end to end without turning.
 ///
 /// Over g, its slope is a parabola with the Bernstein coefficients a, 3 − a − b, b: nowhere negative if the ends are not and the middle
-/// one is not below −√(ab).                                                                                          [theory: eq. 6.6]
+/// one is not below −√(ab).                                                                                  [theory: monotone-spline]
 bool runs_one_way(double left, double right, double g) {
   if (g == 0) return left == 0 && right == 0;
   const double a = left / g, b = right / g, middle = 3 - a - b;

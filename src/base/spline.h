@@ -14,10 +14,11 @@ class Spline {
  public:
   enum class Kind {
     /// C² everywhere, and the third derivative is continuous at the second and the last-but-one knot. 2 knots give a line, 3 a
-    /// parabola, 4 one cubic; any cubic is reproduced exactly. Beyond the ends the outer pieces go on.   [theory: eq. 6.5]
+    /// parabola, 4 one cubic; any cubic is reproduced exactly. Beyond the ends the outer pieces go on.  [theory: not-a-knot]
     not_a_knot,
     /// A not-a-knot spline that never turns between two samples: monotone wherever they are, and never beyond the two beside it. Where a piece
-    /// would turn, the slopes at its ends are limited (0 where the samples turn); elsewhere it is the spline above.   [theory: eq. 6.6]
+    /// would turn, the slopes at its ends are limited (0 where the samples turn); elsewhere it is the spline above.
+    ///                                                                                                        [theory: monotone-spline]
     limited,
     /// C² with period x_last − x_first; the last value must equal the first. 2 knots give a constant. Arguments: modulo the period.
     periodic,

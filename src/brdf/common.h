@@ -35,13 +35,13 @@ struct Directions {
 
 /// |l − v|²: of a narrow lobe about l, where l·v hardly differs from 1.
 template <class F>
-TOFRAY_FN F squared_gap(const Directions<F>& d) {
+TOFRAY_INLINE F squared_gap(const Directions<F>& d) {
   return flow::square_of(d.light.x - d.view.x, d.light.y - d.view.y, d.light.z - d.view.z);
 }
 /// |s − n·(n·s)|² of the sum s = l + v: of a narrow lobe of half vectors about n.
 template <class F>
-TOFRAY_FN F squared_slant(const Directions<F>& d, F normal_part) {
-  const auto slant = [&](F n, F l, F v) __attribute__((always_inline)) { return num::fnma(n, normal_part, l + v); };
+TOFRAY_INLINE F squared_slant(const Directions<F>& d, F normal_part) {
+  const auto slant = [&](F n, F l, F v) TOFRAY_LAMBDA { return num::fnma(n, normal_part, l + v); };
   return flow::square_of(slant(d.normal.x, d.light.x, d.view.x), slant(d.normal.y, d.light.y, d.view.y),
                          slant(d.normal.z, d.light.z, d.view.z));
 }
@@ -49,7 +49,7 @@ TOFRAY_FN F squared_slant(const Directions<F>& d, F normal_part) {
 constexpr float per_pi = 0.318309886f;
 
 template <class F>
-TOFRAY_FN F fifth_power(F a) {
+TOFRAY_INLINE F fifth_power(F a) {
   const F square = a * a;
   return square * square * a;
 }

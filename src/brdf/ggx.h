@@ -7,7 +7,7 @@
 
 namespace tofray::brdf {
 
-/// GGX: small mirrors whose slopes spread by α, over a matt ground.                                          [theory: eq. 2.16, 2.17]
+/// GGX: small mirrors whose slopes spread by α, over a matt ground.                                        [theory: ggx, ggx-masking]
 ///
 ///     f_r = D·V·F + (28/23)·(k_d/π)·(1 − F_0)·(1 − (1 − n·l/2)⁵)·(1 − (1 − n·v/2)⁵)
 ///
@@ -45,7 +45,7 @@ struct Ggx {
     return sum / steps;
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+  TOFRAY_INLINE static F f_r(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
     const F ground = of.number[0], square = of.number[2];
     const Half<F> half = half_of(square, cosine, directions);
     const F masks = num::fma(cosine.light, masked(square, cosine.view), cosine.view * masked(square, cosine.light));
@@ -56,16 +56,16 @@ struct Ggx {
   /// Ways by the mirrors that the view sees, not masked by others [dupuy2023]: where α is 1, their normals are h ∝ v + c, c even over a
   /// cap of the sphere of directions. Their density is D/(2·(n·v + m(n·v))).
   ///
-  /// The share is that of F at the view's own cosine, held to a tenth of the ground's, in what both send back about. [theory: eq. 2.26]
+  /// The share is that of F at the view's own cosine, held to a tenth of the ground's, in what both send back about. [theory: ggx-sampling]
   template <class F>
-  TOFRAY_FN static F lobe_share(const Finish<F>& of, F cos_view) {
+  TOFRAY_INLINE static F lobe_share(const Finish<F>& of, F cos_view) {
     const F ground = of.number[0] * F(23.0f / 28) * passed(cos_view);
     const F mirrors = num::max(num::max(reflected(of.number[1], cos_view), F(0.1f) * ground), F(1e-6f));
     return mirrors / (mirrors + ground);
   }
   template <class F>
-  TOFRAY_FN static Direction<F> lobe_way(const Finish<F>& of, const Directions<F>& d, F u, F v) {
-    const Frame<F> frame = frame_about(d.normal);
+  TOFRAY_INLINE static Direction<F> lobe_way(const Finish<F>& of, const Directions<F>& d, F u, F v) {
+    const Axes<F> frame = axes_across(d.normal);
     const F alpha = num::sqrt(of.number[2]);
     // The view where α is 1. What follows of it are sums of what is not negative: no digits are lost.
     const Direction<F> seen = unit(Direction<F>{alpha * inner(d.view, frame.x), alpha * inner(d.view, frame.y), inner(d.view, d.normal)});
@@ -77,7 +77,7 @@ struct Ggx {
     return mirrored(d.view, sum_of(z, d.normal, sum_of(x, frame.x, y, frame.y)));
   }
   template <class F>
-  TOFRAY_FN static F lobe_pdf(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+  TOFRAY_INLINE static F lobe_pdf(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
     const F square = of.number[2];
     return half_of(square, cosine, directions).density / (cosine.view + masked(square, cosine.view));
   }
@@ -89,22 +89,22 @@ struct Ggx {
     F density;  ///< D/2
   };
   template <class F>
-  TOFRAY_FN static Half<F> half_of(F square, const Cosines<F>& cosine, const Directions<F>& directions) {
+  TOFRAY_INLINE static Half<F> half_of(F square, const Cosines<F>& cosine, const Directions<F>& directions) {
     const F along = cosine.light + cosine.view, c = along * along, slant = squared_slant(directions, along), sum = c + slant;
     const F spread = sum / num::max(num::fma(square, c, slant), F(1e-18f));
     return {sum, F(0.5f * per_pi) * square * (spread * spread)};
   }
   /// F_0 + (1 − F_0)·(1 − μ)⁵
   template <class F>
-  TOFRAY_FN static F reflected(F f0, F cosine) {
+  TOFRAY_INLINE static F reflected(F f0, F cosine) {
     return num::fma(F(1.0f) - f0, fifth_power(num::max(F(1.0f) - cosine, F(0.0f))), f0);
   }
   template <class F>
-  TOFRAY_FN static F masked(F square, F cosine) {
+  TOFRAY_INLINE static F masked(F square, F cosine) {
     return num::sqrt(num::fma(F(1.0f) - square, cosine * cosine, square));
   }
   template <class F>
-  TOFRAY_FN static F passed(F cosine) {
+  TOFRAY_INLINE static F passed(F cosine) {
     return F(1.0f) - fifth_power(num::fnma(F(0.5f), cosine, F(1.0f)));
   }
 };

@@ -5,7 +5,7 @@
 
 namespace tofray::brdf {
 
-/// Lambert: f_r = ρ/π in every direction.                                                                  [theory: eq. 2.3]
+/// Lambert: f_r = ρ/π in every direction.                                                                  [theory: lambert]
 struct Lambert {
   template <class Said>
   static MaterialView view(const Said& material) {
@@ -13,7 +13,7 @@ struct Lambert {
     return {rho, {}, 0, rho, 0, -1};
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>&) {
+  TOFRAY_INLINE static F f_r(const Finish<F>& of, const Cosines<F>&) {
     return of.reflectivity * F(per_pi);
   }
 };

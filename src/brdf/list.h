@@ -30,7 +30,7 @@ MaterialView view_of(const Said& material) {
 
 /// Diffuse and specular shares as other renderers give them: Phong where there is a lobe.
 template <class F>
-TOFRAY_FN Finish<F> lambert_and_lobe(F diffuse, F specular, F exponent) {
+TOFRAY_INLINE Finish<F> lambert_and_lobe(F diffuse, F specular, F exponent) {
   const num::Int<F> phong(num::place_in<Phong>(Brdfs{}));
   return {diffuse + specular, {diffuse, specular, exponent}, num::select(specular > F(0.0f), phong, num::Int<F>(0))};
 }
@@ -41,14 +41,14 @@ concept Narrow = requires(Finish<F> of, Cosines<F> cosine, Directions<F> directi
   T::f_r(of, cosine, directions);
 };
 template <class T, class F>
-TOFRAY_APART F narrow(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
+TOFRAY_NOINLINE F narrow(const Finish<F>& of, const Cosines<F>& cosine, const Directions<F>& directions) {
   return T::f_r(of, cosine, directions);
 }
 
 /// The lanes whose surfaces have the BRDF T.
 /// @param directions  a function, called where they are needed
 template <class T, class F, class Toward>
-TOFRAY_FN void evaluate(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
+TOFRAY_INLINE void evaluate(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
   constexpr int place = num::place_in<T>(Brdfs{});
   if constexpr (place > 0) {
     const auto its = of.brdf == num::Int<F>(place);
@@ -64,14 +64,14 @@ TOFRAY_FN void evaluate(const Finish<F>& of, const Cosines<F>& cosine, const Tow
 }
 
 template <class... T, class F, class Toward>
-TOFRAY_FN void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
+TOFRAY_INLINE void evaluate_each(num::List<T...>, const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions, F& f_r) {
   (evaluate<T>(of, cosine, directions, f_r), ...);
 }
 
 /// What of light from everywhere a surface sends on to the camera: of those that say it, as they are seen; else the reflectivity.
 template <class... T, class F>
-TOFRAY_FN void albedo_of_each(num::List<T...>, const Finish<F>& of, F cosine, F& albedo) {
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+TOFRAY_INLINE void albedo_of_each(num::List<T...>, const Finish<F>& of, F cosine, F& albedo) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (requires { One::albedo(of, cosine); }) {
       const auto its = of.brdf == num::Int<F>(num::place_in<One>(Brdfs{}));
       if (num::any(its)) albedo = num::select(its, One::albedo(of, cosine), albedo);
@@ -81,16 +81,16 @@ TOFRAY_FN void albedo_of_each(num::List<T...>, const Finish<F>& of, F cosine, F&
 }
 /// @param cosine  of the angle at which it is seen
 template <class F>
-TOFRAY_FN F albedo(const Finish<F>& of, F cosine) {
+TOFRAY_INLINE F albedo(const Finish<F>& of, F cosine) {
   F out = of.reflectivity;
   if (num::any(of.brdf > num::Int<F>(0))) albedo_of_each(Brdfs{}, of, cosine, out);
   return out;
 }
 
-/// f_r [1/sr]: how a surface sends light on.                                                [theory: eq. 2.3, 2.4, 2.14, 2.16–2.18]
+/// f_r [1/sr]: how a surface sends light on.                [theory: lambert, phong, oren-nayar, ggx, ggx-masking, retro-reflector]
 /// @param directions  a function that gives Directions<F>: called where they are needed
 template <class F, class Toward>
-TOFRAY_FN F reflection(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions) {
+TOFRAY_INLINE F reflection(const Finish<F>& of, const Cosines<F>& cosine, const Toward& directions) {
   F f_r = Lambert::f_r(of, cosine);
   if (num::any(of.brdf > num::Int<F>(0))) evaluate_each(Brdfs{}, of, cosine, directions, f_r);
   return f_r;

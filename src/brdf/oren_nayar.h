@@ -5,7 +5,7 @@
 
 namespace tofray::brdf {
 
-/// Oren–Nayar, the qualitative model of 1994: a matt surface of small facets whose slopes spread by σ.              [theory: eq. 2.14]
+/// Oren–Nayar, the qualitative model of 1994: a matt surface of small facets whose slopes spread by σ.            [theory: oren-nayar]
 ///
 ///     f_r = ρ/π·(A + B·max(0, cos(φ_i − φ_r))·sin α·tan β),   A = 1 − σ²/(2(σ² + 0.33)),   B = 0.45·σ²/(σ² + 0.09)
 ///
@@ -22,16 +22,16 @@ struct OrenNayar {
     return {all, {static_cast<float>(rho * a), static_cast<float>(rho * b), 0}, 0, all, 2, -1};
   }
   template <class F>
-  TOFRAY_FN static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
+  TOFRAY_INLINE static F f_r(const Finish<F>& of, const Cosines<F>& cosine) {
     const F across = num::max(num::fnma(cosine.light, cosine.view, cosine.between), F(0.0f));
     const F larger = num::max(num::max(cosine.light, cosine.view), F(1e-6f));
     return num::fma(of.number[1], across / larger, of.number[0]) * F(per_pi);
   }
   /// ∫ f_r·cos θ_i dω over the half space, of a surface that is seen at θ: ρ·(A + B·h(θ)),
   ///
-  ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                                  [theory: eq. 2.30]
+  ///     h = (2/π)·(½·sin θ·(θ − sin θ·cos θ) + ⅓·tan θ·(1 − sin³ θ)).                         [theory: oren-nayar-albedo]
   template <class F>
-  TOFRAY_FN static F albedo(const Finish<F>& of, F cosine) {
+  TOFRAY_INLINE static F albedo(const Finish<F>& of, F cosine) {
     const F c = num::min(num::max(cosine, F(0.0f)), F(1.0f)), s = num::sqrt(num::fnma(c, c, F(1.0f)));
     const F theta = num::atan2_turns(s, c) * F(6.28318531f);
     // tan θ·(1 − sin³ θ) without the pole: sin θ·cos θ·(1 + sin θ + sin² θ)/(1 + sin θ)

@@ -21,7 +21,7 @@ struct MapView {
 
 /// Into 0…1, as the picture goes on beyond its edges.
 template <class F>
-TOFRAY_FN F wrapped(F a, std::int32_t wrap) {
+TOFRAY_INLINE F wrapped(F a, std::int32_t wrap) {
   if (wrap == 2) return num::min(num::max(a, F(0.0f)), F(1.0f));
   if (wrap == 0) return a - num::floor(a);
   const F pair = a - F(2.0f) * num::floor(a * F(0.5f));
@@ -30,7 +30,7 @@ TOFRAY_FN F wrapped(F a, std::int32_t wrap) {
 
 /// The texel beside an edge: the one on the other side where the picture repeats, else the edge's own.
 template <class F>
-TOFRAY_FN num::Int<F> texel_at(num::Int<F> i, num::Int<F> size, std::int32_t wrap) {
+TOFRAY_INLINE num::Int<F> texel_at(num::Int<F> i, num::Int<F> size, std::int32_t wrap) {
   using Int = num::Int<F>;
   const Int last = size - Int(1);
   i = num::select(i < Int(0), wrap == 0 ? last : Int(0), i);
@@ -39,7 +39,7 @@ TOFRAY_FN num::Int<F> texel_at(num::Int<F> i, num::Int<F> size, std::int32_t wra
 
 /// Bilinear within one level of each lane.
 template <class F>
-TOFRAY_FN F in_level(const MapView& map, num::Int<F> level, F u, F v) {
+TOFRAY_INLINE F in_level(const MapView& map, num::Int<F> level, F u, F v) {
   using Int = num::Int<F>;
   const Int width = num::gather(map.width, level), height = num::gather(map.height, level), start = num::gather(map.start, level);
   const F x = num::fms(u, num::to_float(width), F(0.5f)), y = num::fms(v, num::to_float(height), F(0.5f));
@@ -53,10 +53,10 @@ TOFRAY_FN F in_level(const MapView& map, num::Int<F> level, F u, F v) {
   return num::fma(below - above, low, above);
 }
 
-/// What the picture says at (u, v), between the two levels whose texels are next to the pixel's size.    [theory: eq. 2.19]
+/// What the picture says at (u, v), between the two levels whose texels are next to the pixel's size.  [theory: pixel-footprint]
 /// @param seen  area that a pixel sees, in units of the picture (1: all of it)
 template <class F>
-TOFRAY_FN F map_value(const MapView& map, F u, F v, F seen) {
+TOFRAY_INLINE F map_value(const MapView& map, F u, F v, F seen) {
   using Int = num::Int<F>;
   const F texels = seen * F(static_cast<float>(map.width[0]) * static_cast<float>(map.height[0]));
   const F level =

@@ -24,16 +24,16 @@ concept Lobed = requires(Finish<F> of, Cosines<F> cosine, Directions<F> directio
   T::lobe_pdf(of, cosine, directions);
 };
 
-/// Of the density (n·l)/π.                                                                                  [theory: eq. 2.23]
+/// Of the density (n·l)/π.                                                                           [theory: cosine-sampling]
 template <class F>
-TOFRAY_FN Direction<F> cosine_way(const Direction<F>& normal, F u, F v) {
+TOFRAY_INLINE Direction<F> cosine_way(const Direction<F>& normal, F u, F v) {
   return beside(normal, num::sqrt(F(1.0f) - u), num::sqrt(u), v);
 }
 
 /// Matt part or lobe: u says which, and what is left of it where. Whichever it was, the weight is by the density of both, which keeps it
-/// from growing where one part alone is rare.                                                              [theory: eq. 2.24]
+/// from growing where one part alone is rare.                                                      [theory: mixture-sampling]
 template <class T, class F>
-TOFRAY_APART Sampled<F> matt_or_lobe(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v) {
+TOFRAY_NOINLINE Sampled<F> matt_or_lobe(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v) {
   const F cos_view = inner(normal, view), share = T::lobe_share(of, cos_view), rest = F(1.0f) - share;
   const auto lobe = u < share;
   const F again = num::select(lobe, u, u - share) / num::select(lobe, share, rest);
@@ -53,7 +53,7 @@ TOFRAY_APART Sampled<F> matt_or_lobe(const Finish<F>& of, const Direction<F>& no
 
 /// The lanes whose surfaces have the BRDF T; `out` holds those that Lambert's would have.
 template <class T, class F>
-TOFRAY_FN void sample_those(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v, Sampled<F>& out) {
+TOFRAY_INLINE void sample_those(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v, Sampled<F>& out) {
   constexpr int place = num::place_in<T>(Brdfs{});
   if constexpr (place > 0) {
     const auto its = of.brdf == num::Int<F>(place);
@@ -71,16 +71,17 @@ TOFRAY_FN void sample_those(const Finish<F>& of, const Direction<F>& normal, con
 }
 
 template <class... T, class F>
-TOFRAY_FN void sample_each(num::List<T...>, const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v,
-                           Sampled<F>& out) {
+TOFRAY_INLINE void sample_each(num::List<T...>, const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v,
+                               Sampled<F>& out) {
   (sample_those<T>(of, normal, view, u, v, out), ...);
 }
 
-/// A way that light may have come from, and what it weighs.                                        [theory: eq. 2.23–2.27]
+/// A way that light may have come from, and what it weighs.
+///                               [theory: cosine-sampling, mixture-sampling, phong-sampling, ggx-sampling, retro-sampling]
 /// @param normal, view  of unit length, the view (to where light goes) above the surface: n·v > 0
 /// @param u, v          in [0, 1): a pair for each way, evenly spread over the square
 template <class F>
-TOFRAY_FN Sampled<F> sample(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v) {
+TOFRAY_INLINE Sampled<F> sample(const Finish<F>& of, const Direction<F>& normal, const Direction<F>& view, F u, F v) {
   Sampled<F> out{cosine_way(normal, u, v), of.reflectivity};
   if (num::any(of.brdf > num::Int<F>(0))) sample_each(Brdfs{}, of, normal, view, u, v, out);
   return out;

@@ -35,7 +35,7 @@ class FrozenCamera {
   [[nodiscard]] const PowerView& power() const { return power_; }
   [[nodiscard]] const PhasorView& phasors() const { return phasors_.view(); }
   [[nodiscard]] const DecoderView& decoder() const { return decoder_.view(); }
-  /// The correlation's harmonics as depth takes them.                                                       [theory: eq. 4.15]
+  /// The correlation's harmonics as depth takes them.                                                 [theory: several-lights]
   [[nodiscard]] std::vector<Harmonic> mean_harmonics(std::size_t modulation) const {
     return camera::mean_harmonics(camera_, lights_.views(), modulations_.frequency_hz[modulation]);
   }

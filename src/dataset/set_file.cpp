@@ -13,16 +13,17 @@ namespace {
 
 constexpr double most_samples = 1e12, most_views = 256, most_devices = 1e9, most_seed = 9007199254740991.0, most_attempts = 65536;
 
-model::Form rule_form() {
-  model::Form rule = model::map({model::absent("valid", model::number(base::Dimension::fraction, {0, 1}, "60 %"),
-                                               "the share of the pixels that have a depth, at least"),
-                                 model::absent("seen", model::text("the name of an object, or of a scatter", "clutter"), "what is seen"),
-                                 model::absent("pixels", model::integer({1, 1e9}, "200"), "by so many pixels, at least")});
+model::ValueForm rule_form() {
+  model::ValueForm rule =
+      model::map({model::absent("valid", model::number(base::Dimension::fraction, {0, 1}, "60 %"),
+                                "the share of the pixels that have a depth, at least"),
+                  model::absent("seen", model::text("the name of an object, or of a scatter", "clutter"), "what is seen"),
+                  model::absent("pixels", model::integer({1, 1e9}, "200"), "by so many pixels, at least")});
   rule.exactly_one = {"valid", "seen"};
   return rule;
 }
 
-model::Form split_form() {
+model::ValueForm split_form() {
   const auto share = [](const char* example) { return model::number(base::Dimension::fraction, {0, 1}, example); };
   return model::map({model::required("by", model::choice({"scene", "asset"}), "what no two splits have in common"),
                      model::absent("test", share("10 %"), "the share of the samples that are for testing"),
@@ -65,15 +66,15 @@ const model::FileForm& set_form() {
           absent("seed", model::integer({0, most_seed}, "7"), "another one: other draws throughout"),
           absent("views", model::integer({1, most_views}, "4"), "poses of the camera for each scene"),
           absent("devices", model::integer({1, most_devices}, "16"), "specimens of the camera that take turns"),
-          absent("let", model::Form{}, "numbers by name, for expressions"),
+          absent("let", model::ValueForm{}, "numbers by name, for expressions"),
           absent("arrays", model::list(model::text("the name of an array, or a pattern", "gt_*"), 1, 64), "what is stored of each sample"),
           absent("as", quantised_form(), "arrays of floats that are stored as whole numbers"),
           absent("accept", model::list(rule_form(), 1, 16), "what a sample has to show, or it is drawn again"),
           absent("attempts", model::integer({1, most_attempts}, "50"), "how often a sample is drawn until accept takes it"),
           absent("holes", model::number(base::Dimension::fraction, {0, 1}, "0.1 %"), "the share of samples that may fail"),
           absent("split", split_form(), "which samples are for training, validation and testing"),
-          required("scene", model::Form{}, "a scene in which any value may be a form"),
-          absent("set", model::Form{}, "keys and values as --set takes them; of the camera, too"),
+          required("scene", model::ValueForm{}, "a scene in which any value may be a form"),
+          absent("set", model::ValueForm{}, "keys and values as --set takes them; of the camera, too"),
       }),
   };
   return form;

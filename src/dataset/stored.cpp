@@ -37,7 +37,7 @@ double Quantised::least() const { return type.kind == 'u' ? 0 : no_value() + 1; 
 double Quantised::most() const { return type.kind == 'u' ? no_value() - 1 : -no_value() - 1; }
 double Quantised::no_value() const { return type.kind == 'u' ? std::ldexp(1.0, 8 * type.size) - 1 : -std::ldexp(1.0, 8 * type.size - 1); }
 
-model::Form quantised_form() {
+model::ValueForm quantised_form() {
   using namespace model;
   return dictionary(map({required("type", choice({"uint8", "uint16", "int8", "int16"}), "what each number is stored as"),
                          required("step", text("a step with its unit", "0.1 mm"), "between one whole number and the next")}),

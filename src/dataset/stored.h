@@ -24,7 +24,7 @@ struct Quantised {
 };
 
 /// What may stand behind `as`.
-model::Form quantised_form();
+model::ValueForm quantised_form();
 
 /// Names and patterns of arrays. @param value  of the key `arrays`
 std::vector<std::string> stored_arrays(const yaml::Value& value, base::Faults& faults);

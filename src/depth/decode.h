@@ -6,7 +6,7 @@
 #include "effect/nonlinearity.h"
 #include "tofray/flags.h"
 
-/// Stage 4: from raw frames to range.                                                                   [theory: chapter 4]
+/// Stage 4: from raw frames to range.                                                                   (docs/theory/04-depth.md)
 namespace tofray::depth {
 
 using flow::Depth;
@@ -19,13 +19,13 @@ enum Bits : std::int32_t {
       invalid = flags_invalid,
 };
 
-/// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                                  [eq. 4.2]
+/// Ẑ = (2/N)Σ D_k e^{−iτ_k} of one modulation frequency.                                   [theory: phase-estimate]
 template <class F>
 struct Phasor {
   F real, imaginary;
 };
 template <class F>
-TOFRAY_FN Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
+TOFRAY_INLINE Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
   F real = F(0.0f), imaginary = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
@@ -35,7 +35,7 @@ TOFRAY_FN Phasor<F> phasor(const camera::DecoderView& s, const camera::DecodeMod
   return {real, imaginary};
 }
 
-/// Its phase and amplitude: φ̂ = arg Ẑ, Â = |Ẑ|.                                                          [eq. 4.2]
+/// Its phase and amplitude: φ̂ = arg Ẑ, Â = |Ẑ|.                                           [theory: phase-estimate]
 template <class F>
 struct Estimate {
   F real, imaginary;  ///< Ẑ [e⁻]
@@ -44,7 +44,7 @@ struct Estimate {
 };
 
 template <class F>
-TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
+TOFRAY_INLINE Estimate<F> estimate(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference) {
   const auto [real, imaginary] = phasor(s, m, difference);
   const F turns = num::atan2_turns(imaginary, real);
   const F positive = num::select(turns < F(0.0f), turns + F(1.0f), turns);
@@ -53,34 +53,34 @@ TOFRAY_FN Estimate<F> estimate(const camera::DecoderView& s, const camera::Decod
 
 /// A table's value at φ̂, on a straight line from node to node, and the step between these.
 template <class F>
-TOFRAY_FN F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
+TOFRAY_INLINE F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
   const F place = turns * F(static_cast<float>(s.wiggling_nodes));
   const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
   F value;
   num::gather_pair(table, num::to_int(node), value, step);
   return num::fma(place - node, step, value);
 }
-/// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                                         [eq. 4.3]
+/// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                     [theory: wiggling-correction]
 template <class F>
-TOFRAY_FN F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
+TOFRAY_INLINE F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
   F step;
   const F correction = at_phase(s, m.wiggling, turns, step);
   slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
   return turns + correction;
 }
-/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.              [eq. 4.9]
+/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.  [theory: noise-estimate]
 template <class F>
-TOFRAY_FN F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
+TOFRAY_INLINE F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
   if (m.light == nullptr) return F(m.per_contrast);
   F step;
   return at_phase(s, m.light, turns, step);
 }
 
 /// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
-/// A, and dark charge below it.                                                                           [eq. 4.9, 4.21]
+/// A, and dark charge below it.                                                   [theory: noise-estimate, noise-as-read]
 /// \tparam plain  as of decode
 template <bool plain, class F>
-TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
+TOFRAY_INLINE F grey_sum(const camera::DecoderView& s, const F* difference) {
   F sum = F(0.0f);
   if (!plain && s.read.cell != nullptr) {
     const F dark_read = effect::read_charge(s.read, F(s.grey_dark)).value;
@@ -93,27 +93,28 @@ TOFRAY_FN F grey_sum(const camera::DecoderView& s, const F* difference) {
 
 /// Opposite reference phases must cancel: |D_k + D_k'| > max(limit, k√(2V̂)) says that something moved.
 template <class F>
-TOFRAY_FN Mask<F> phases_disagree(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F variance) {
+TOFRAY_INLINE Mask<F> phases_disagree(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F variance) {
   F most = F(0.0f);
   for (int j = 0; j < m.pairs; ++j) most = num::max(most, num::abs(difference[m.pair[2 * j]] + difference[m.pair[2 * j + 1]]));
   return most * most > num::max(F(s.asymmetry_factor) * variance, F(s.asymmetry_square));
 }
 
-/// What background suppression took off each tap of raw frame k: about x_k = min(budget, ½(collected − |D_k|) − threshold).    [eq. 4.13]
+/// What background suppression took off each tap of raw frame k: about x_k = min(budget, ½(collected − |D_k|) − threshold).
+///                                                                                                            [theory: suppression-noise]
 /// @param collected   electrons of both taps together
 /// @param difference  D_k [e⁻]
 template <class F>
-TOFRAY_FN F suppressed(const camera::DecoderView& s, F difference, F collected) {
+TOFRAY_INLINE F suppressed(const camera::DecoderView& s, F difference, F collected) {
   const F excess = F(0.5f) * (collected - num::abs(difference)) - F(s.suppression_threshold);
   return num::min(num::max(excess, F(0.0f)), F(s.suppression_budget));
 }
 
 /// What background suppression adds to the variance, as if to each raw frame: its noise turns the phase by the part that stands across Ẑ.
-/// @param collected   electrons of both taps together                                                     [eq. 4.13]
+/// @param collected   electrons of both taps together                                    [theory: suppression-noise]
 /// @param per_slope   electrons of each one that is read
 template <class F>
-TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                                 F collected, F per_slope) {
+TOFRAY_INLINE F suppression_variance(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference,
+                                     const Estimate<F>& e, F collected, F per_slope) {
   F across = F(0.0f);
   for (int j = 0; j < m.count; ++j) {
     const int k = m.raw_frame[j];
@@ -125,9 +126,10 @@ TOFRAY_FN F suppression_variance(const camera::DecoderView& s, const camera::Dec
   return across / square * F(s.suppression_variance * 0.5f * static_cast<float>(m.count));
 }
 
-/// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.                [eq. 4.21]
+/// Charge of a tap when it is read, the mean over both taps and a modulation's raw frames.   [theory: noise-as-read]
 template <class F>
-TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected, F per_slope) {
+TOFRAY_INLINE F charge_left(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, F collected,
+                            F per_slope) {
   const F charge = F(0.5f) * collected;
   if (!(s.suppression_threshold > 0)) return charge;
   F removed = F(0.0f);
@@ -136,11 +138,12 @@ TOFRAY_FN F charge_left(const camera::DecoderView& s, const camera::DecodeModula
 }
 
 /// Variance with a nonlinear readout: charge variance × (slope of the readout curve)². Only the
-/// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.  [eq. 4.21]
+/// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.
+///                                                                                                                  [theory: noise-as-read]
 /// @param known  electrons of both taps that are no signal: ambient light and dark current
 template <class F>
-TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                             F known) {
+TOFRAY_INLINE F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                                 F known) {
   constexpr int turns = 6;
   const F both_full = F(2 * s.read.most);
   const F per_amplitude = light_per_amplitude(s, m, e.turns);
@@ -158,11 +161,11 @@ TOFRAY_FN F variance_as_read(const camera::DecoderView& s, const camera::DecodeM
   return num::fma(slope * slope, variance, F(s.output_floor));
 }
 
-/// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                                      [eq. 4.9]
+/// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                       [theory: noise-estimate]
 /// \tparam plain  as of decode
 template <bool plain = false, class F>
-TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                        F ambient) {
+TOFRAY_INLINE F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
+                            F ambient) {
   const float dark = s.dark_rate_both * m.integration_time;
   if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
   const F electrons = num::fma(e.amplitude, light_per_amplitude(s, m, e.turns), ambient);
@@ -171,21 +174,21 @@ TOFRAY_FN F variance_of(const camera::DecoderView& s, const camera::DecodeModula
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));
 }
 
-/// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².           [eq. 4.9]
+/// 1/σ² of the half path that one modulation frequency says [1/m²]: σ_φ² = (2V̂/N)/Â²·(dφ/dφ̂)².  [theory: noise-estimate]
 template <class F>
-TOFRAY_FN F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
+TOFRAY_INLINE F inverse_variance(const camera::DecodeModulation& m, const Estimate<F>& e, F variance, F slope) {
   const F signal = num::max(e.amplitude, F(1e-3f));
   return signal * signal / (variance * F(m.variance_factor) * (slope * slope));
 }
 
-/// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).             [eq. 2.9]
+/// Exact inverse of ℓ = |P − L| + |P| along the unit view ray u: range = (ℓ² − |L|²)/(2(ℓ − u·L)).  [theory: path-to-range]
 template <class F>
 struct Inverse {
   F range;
-  F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                             [eq. 4.14]
+  F slope;  ///< of the range over half the path: 2(ℓ − range)/(ℓ − u·L)                  [theory: range-slope]
 };
 template <class F>
-TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
+TOFRAY_INLINE Inverse<F> range_from_path(const camera::DecoderView& s, F path_length, F ux, F uy, F uz) {
   const F along = num::fma(ux, F(s.light[0]), num::fma(uy, F(s.light[1]), uz * F(s.light[2])));
   const F per_length = F(1.0f) / (path_length - along);
   const F range = F(0.5f) * num::fma(path_length, path_length, F(-s.light_square)) * per_length;
@@ -193,13 +196,13 @@ TOFRAY_FN Inverse<F> range_from_path(const camera::DecoderView& s, F path_length
 }
 
 template <class F>
-TOFRAY_FN num::Int<F> bit(Mask<F> m, Bits value) {
+TOFRAY_INLINE num::Int<F> bit(Mask<F> m, Bits value) {
   return num::select(m, num::Int<F>(value), num::Int<F>(0));
 }
 
 /// What was a warning makes the depth invalid, where the camera was told so.
 template <class F>
-TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> flags) {
+TOFRAY_INLINE num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> flags) {
   const num::Int<F> none(0);
   return num::select((flags & num::Int<F>(s.rejected)) == none, none, num::Int<F>(rejected));
 }
@@ -208,7 +211,7 @@ TOFRAY_FN num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F> fla
 /// @param i       its number
 /// \tparam plain  as of decode
 template <bool plain, class F>
-TOFRAY_FN F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
+TOFRAY_INLINE F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
   const camera::DecodeModulation& m = s.modulation[i];
   F phi = unwiggle(s, m, e.turns, slope);
   if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
@@ -223,10 +226,10 @@ struct OfFrequency {
   num::Int<F> cycle;  ///< n_i: that in which d_i is nearest to the half path of all; below 0 or past the last one at the ends of the range
   Mask<F> known;      ///< it has light, and a half path longer than the way between light and lens
 };
-/// What each says alone, in the cycle that unwrapping found for all of them.                               [eq. 4.4, 4.34]
+/// What each says alone, in the cycle that unwrapping found for all of them.         [theory: half-path, single-frequency]
 template <class F>
-TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
-                              OfFrequency<F>* out) {
+TOFRAY_INLINE void each_frequency(const camera::DecoderView& s, const F* difference, const flow::Ray<F>& ray, const flow::Pixels& p,
+                                  OfFrequency<F>* out) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   const F grey = grey_sum<false>(s, difference);
   for (int i = 0; i < s.modulations; ++i) {
@@ -253,8 +256,8 @@ TOFRAY_FN void each_frequency(const camera::DecoderView& s, const F* difference,
 /// @param p           the pixels, for what is known of each
 /// \tparam plain      true: the sensor has none of the effects that depth knows of, and there is no code for them
 template <bool plain, class F>
-TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
-                          const flow::Pixels& p) {
+TOFRAY_INLINE Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                              const flow::Pixels& p) {
   F turns[flow::max_modulation_frequencies], weight[flow::max_modulation_frequencies];
   F amplitude = F(0.0f), ambient = F(0.0f), weakest = F(3e38f);
   Mask<F> moved = F(1.0f) < F(0.0f);
@@ -291,8 +294,8 @@ TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mas
   return out;
 }
 template <class F>
-TOFRAY_FN Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
-                          const flow::Pixels& p) {
+TOFRAY_INLINE Depth<F> decode(const camera::DecoderView& s, const F* difference, Mask<F> clipped, Mask<F> outside, const flow::Ray<F>& ray,
+                              const flow::Pixels& p) {
   return s.effects != 0 ? decode<false>(s, difference, clipped, outside, ray, p) : decode<true>(s, difference, clipped, outside, ray, p);
 }
 

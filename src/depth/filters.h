@@ -4,7 +4,7 @@
 #include "depth/decode.h"
 
 /// Image filters over the range image, and what they leave of its noise. Invalid pixels are neither changed nor used, so that nothing
-/// bleeds. Noise of different pixels is taken for independent.                                     [theory: eq. 4.17 to 4.20]
+/// bleeds. Noise of different pixels is taken for independent.  [theory: gaussian-filter, median-filter, bilateral-filter, adaptive-filter]
 namespace tofray::depth {
 
 /// Range image, its noise, and flags that a filter reads.
@@ -13,16 +13,18 @@ struct RangeImage {
   const float* noise;  ///< σ̂ [m]
   const std::uint16_t* flags;
   std::int32_t width, height;
-  TOFRAY_FN bool valid(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0; }
-  TOFRAY_FN float variance(int at) const { return noise[at] * noise[at]; }
+  TOFRAY_INLINE bool valid(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && (flags[y * width + x] & invalid) == 0;
+  }
+  TOFRAY_INLINE float variance(int at) const { return noise[at] * noise[at]; }
 };
 
 struct Filtered {
   float range, noise;
 };
 
-/// Gaussian with the weights of the valid pixels in the window, normalised to their sum.                               [eq. 4.17]
-TOFRAY_FN Filtered gaussian(const RangeImage& image, int x, int y, int radius, const float* weights) {
+/// Gaussian with the weights of the valid pixels in the window, normalised to their sum.                [theory: gaussian-filter]
+TOFRAY_INLINE Filtered gaussian(const RangeImage& image, int x, int y, int radius, const float* weights) {
   float sum = 0, total = 0, variance = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
     for (int dx = -radius; dx <= radius; ++dx) {
@@ -37,8 +39,8 @@ TOFRAY_FN Filtered gaussian(const RangeImage& image, int x, int y, int radius, c
   return {sum / total, num::sqrt(variance) / total};
 }
 
-/// Median of the valid pixels in the window; of an even number the lower one of the middle two.                        [eq. 4.18]
-TOFRAY_FN Filtered median(const RangeImage& image, int x, int y, int radius) {
+/// Median of the valid pixels in the window; of an even number the lower one of the middle two.           [theory: median-filter]
+TOFRAY_INLINE Filtered median(const RangeImage& image, int x, int y, int radius) {
   float sorted[(2 * 4 + 1) * (2 * 4 + 1)], variance = 0;
   int count = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
@@ -63,8 +65,8 @@ struct Reach {
 };
 
 /// Gaussian over the image times Tukey's biweight (1 − Δ²/s²)² over the range, normalised to their sum. What is left of the noise is
-/// that of the function's slope: weights depend on ranges, too.                                                          [eq. 4.19]
-TOFRAY_FN Filtered bilateral(const RangeImage& image, int x, int y, int radius, const float* weights, const Reach& reach) {
+/// that of the function's slope: weights depend on ranges, too.                                          [theory: bilateral-filter]
+TOFRAY_INLINE Filtered bilateral(const RangeImage& image, int x, int y, int radius, const float* weights, const Reach& reach) {
   const int middle = y * image.width + x;
   const float here = image.range[middle], variance = image.variance(middle);
   float sum = 0, total = weights[0] * weights[0];
@@ -92,10 +94,10 @@ TOFRAY_FN Filtered bilateral(const RangeImage& image, int x, int y, int radius, 
 }
 
 /// Mean of the pixel and of neighbours within k√(σ̂² + σ̂_n²) of it, weighted by 1/σ̂²: the window grows ring by ring until the noise is no
-/// more than the goal.                                                                                                   [eq. 4.20]
+/// more than the goal.                                                                                    [theory: adaptive-filter]
 /// @param factor  k²
 /// @param goal    square of the noise that is good enough [m²]
-TOFRAY_FN Filtered adaptive(const RangeImage& image, int x, int y, int radius, float factor, float goal) {
+TOFRAY_INLINE Filtered adaptive(const RangeImage& image, int x, int y, int radius, float factor, float goal) {
   constexpr float least = 1e-12f;  // [m²] of a neighbour: a micrometre
   const int middle = y * image.width + x;
   const float here = image.range[middle], variance = image.variance(middle);

@@ -7,9 +7,9 @@
 /// What looks at neighbours: flying pixels, and the image filters. Each is a pure function of one row and a view.
 namespace tofray::depth {
 
-/// Largest step in z that one surface may show between neighbours: grows linearly between two distances. [eq. 4.11]
+/// Largest step in z that one surface may show between neighbours: grows linearly between two distances. [theory: flying-pixel-limit]
 template <class F>
-TOFRAY_FN F flying_limit(const camera::DecoderView& s, F z) {
+TOFRAY_INLINE F flying_limit(const camera::DecoderView& s, F z) {
   const F share =
       (num::min(num::max(z, F(s.flying_near_z)), F(s.flying_far_z)) - F(s.flying_near_z)) * F(1.0f / (s.flying_far_z - s.flying_near_z));
   return num::fma(share, F(s.flying_far_limit - s.flying_near_limit), F(s.flying_near_limit));
@@ -24,12 +24,12 @@ struct FlyingImage {
 
 /// Whether a neighbour's z is off by more than the limit.
 template <class F>
-TOFRAY_FN Mask<F> is_apart(const FlyingImage& image, int neighbour, int count, F here, F limit) {
+TOFRAY_INLINE Mask<F> is_apart(const FlyingImage& image, int neighbour, int count, F here, F limit) {
   return num::abs(num::load<F>(image.z + neighbour, count) - here) > limit;
 }
-/// Whether a neighbour's z is off by more than k√(σ̂² + σ̂_n²), by squares.                                                       [eq. 4.16]
+/// Whether a neighbour's z is off by more than k√(σ̂² + σ̂_n²), by squares.                                      [theory: flying-pixel-step]
 template <class F>
-TOFRAY_FN Mask<F> is_no_noise(const camera::DecoderView& s, const FlyingImage& image, int neighbour, int count, F here, F variance) {
+TOFRAY_INLINE Mask<F> is_no_noise(const camera::DecoderView& s, const FlyingImage& image, int neighbour, int count, F here, F variance) {
   const F apart = num::load<F>(image.z + neighbour, count) - here, noise = num::load<F>(image.noise + neighbour, count);
   return apart * apart > F(s.flying_factor) * num::fma(noise, noise, variance);
 }
@@ -37,7 +37,7 @@ TOFRAY_FN Mask<F> is_no_noise(const camera::DecoderView& s, const FlyingImage& i
 /// Flying where both left and right, or both up and down, are valid and off by more than the limit and than their noise. Noise is looked
 /// at only where a limit was passed, which is seldom; so next to nothing is added to the time of a frame.
 template <class F>
-TOFRAY_FN Mask<F> flies(const camera::DecoderView& s, const FlyingImage& image, int count, bool has_rows, bool has_left_right) {
+TOFRAY_INLINE Mask<F> flies(const camera::DecoderView& s, const FlyingImage& image, int count, bool has_rows, bool has_left_right) {
   const F here = num::load<F>(image.z, count), limit = flying_limit(s, here);
   Mask<F> across = F(1.0f) < F(0.0f), down = across;
   if (has_left_right) across = is_apart(image, -1, count, here, limit) & is_apart(image, 1, count, here, limit);

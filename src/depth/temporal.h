@@ -3,7 +3,7 @@
 #pragma once
 #include "depth/filters.h"
 
-/// A mean over frames that follow each other, pixel by pixel, and what it leaves of the noise.                 [theory: eq. 4.22]
+/// A mean over frames that follow each other, pixel by pixel, and what it leaves of the noise.            [theory: temporal-mean]
 namespace tofray::depth {
 
 /// Range and noise of a frame before; the range of an invalid pixel is NaN.
@@ -16,7 +16,7 @@ struct PastFrame {
 /// Of an invalid pixel, whose range is NaN, nothing is near.
 /// @param past    the youngest first
 /// @param factor  k²
-TOFRAY_FN Filtered mean_over_time(const RangeImage& image, const PastFrame* past, int count, int at, float factor) {
+TOFRAY_INLINE Filtered mean_over_time(const RangeImage& image, const PastFrame* past, int count, int at, float factor) {
   constexpr float least = 1e-12f;  // [m²] of a frame: a micrometre
   const float here = image.range[at], variance = num::max(image.variance(at), least);
   const float own = 1.0f / variance;

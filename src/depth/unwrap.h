@@ -3,7 +3,8 @@
 #pragma once
 #include "camera/decoder/view.h"
 
-/// Which cycle: half paths from wrapped phases of one or more modulation frequencies.            [theory: eq. 4.4–4.7]
+/// Which cycle: half paths from wrapped phases of one or more modulation frequencies.
+///                                                   [theory: half-path, two-frequency-unwrapping, unwrapping, fusion]
 namespace tofray::depth {
 
 using num::Mask;
@@ -16,18 +17,19 @@ struct HalfPath {
   Mask<F> inconsistent;
 };
 
-/// How likely one of several cycles is, all of which are as likely before anything is measured: exp(−χ²/2) over the sum of all.    [eq. 4.31]
+/// How likely one of several cycles is, all of which are as likely before anything is measured: exp(−χ²/2) over the sum of all.
+///                                                                                                               [theory: cycle-likelihood]
 template <class F>
 class Odds {
  public:
-  TOFRAY_FN void add(F square) {
+  TOFRAY_INLINE void add(F square) {
     const auto better = square < least_;
     const F ratio = num::exp2(num::abs(square - least_) * F(per_half));
     sum_ = num::select(better, num::fma(sum_, ratio, F(1.0f)), sum_ + ratio);
     least_ = num::select(better, square, least_);
   }
   /// (Where nothing is a number: 0.)
-  [[nodiscard]] TOFRAY_FN F of(F square) const {
+  [[nodiscard]] TOFRAY_INLINE F of(F square) const {
     const F share = num::exp2((square - least_) * F(per_half)) / sum_;
     return num::select(share >= F(0.0f), num::min(share, F(1.0f)), F(0.0f));
   }
@@ -39,13 +41,13 @@ class Odds {
 
 /// Half path d_i = R_i(n_i + p_i) of modulation i that lies nearest to `target`.
 template <class F>
-TOFRAY_FN F nearest_half_path(const camera::DecodeModulation& m, F turns, F target) {
+TOFRAY_INLINE F nearest_half_path(const camera::DecodeModulation& m, F turns, F target) {
   return F(m.half_wave) * (num::round_even(num::fma(target, F(m.per_half_wave), -turns)) + turns);
 }
 
-/// χ² of the cycle that the half path d of the reference stands for: Σ w·off² − (Σ w·off)²/Σ w.                            [eq. 4.31]
+/// χ² of the cycle that the half path d of the reference stands for: Σ w·off² − (Σ w·off)²/Σ w.            [theory: cycle-likelihood]
 template <class F>
-TOFRAY_FN F square_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F d) {
+TOFRAY_INLINE F square_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F d) {
   F first = F(0.0f), second = F(0.0f);
   for (int i = 0; i < s.modulations; ++i) {
     if (i == s.reference) continue;
@@ -55,7 +57,7 @@ TOFRAY_FN F square_of_cycle(const camera::DecoderView& s, const F* turns, const 
   return num::min(num::max(num::fnma(first * per_weights, first, second), F(0.0f)), F(1e30f));
 }
 template <class F>
-TOFRAY_APART F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, const F& per_weights, const F& best) {
+TOFRAY_NOINLINE F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, const F& per_weights, const F& best) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
   Odds<F> odds;
   for (int n = 0; n < static_cast<int>(reference.cycles); ++n)
@@ -66,7 +68,7 @@ TOFRAY_APART F share_of_cycle(const camera::DecoderView& s, const F* turns, cons
 /// χ² ≥ m·w_ref·min w/Σ w of the others, and at most m·max w of the best.
 /// @param least, next  misfits of the best and of the next one
 template <class F>
-TOFRAY_FN F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F weights, F best, F least, F next) {
+TOFRAY_INLINE F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F weights, F best, F least, F next) {
   constexpr float sure = 40;  // e^−20 of all
   F low = F(3e38f), high = F(0.0f);
   for (int i = 0; i < s.modulations; ++i) {
@@ -85,7 +87,7 @@ TOFRAY_FN F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F
 /// @param turns  p_i = φ_i/2π in [0, 1)
 /// @param weight 1/σ_i² of each half path [1/m²]
 template <class F>
-TOFRAY_FN HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* weight) {
+TOFRAY_INLINE HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, const F* weight) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
   F best = F(0.0f), least = F(3e38f), next = F(3e38f);  // next: of the misfits, after the least
   const int cycles = static_cast<int>(reference.cycles);

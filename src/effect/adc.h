@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// From A−B to a code and back.                                                                 [theory: eq. 3.8, 3.13, 3.33]
+/// From A−B to a code and back.                                               [theory: adc, noiseless-difference, gain-steps]
 struct Adc {
   struct View {
     float per_step;                  ///< 1/s [DN/e⁻]
@@ -28,14 +28,14 @@ struct Adc {
   /// Binned pixels are converted once.
   template <class Pixel>
   static void bin(Pixel&, int) {}
-  /// Variance of rounding: s²/12.                                                                              [theory: eq. 3.9]
+  /// Variance of rounding: s²/12.                                                                          [theory: phase-noise]
   template <class Camera>
   static double variance(const Camera& camera) {
     const double step = step_of(camera);
     return step * step / 12;
   }
 
-  /// Electrons of A−B for each code, in the mode's gain.                                             [theory: eq. 3.33]
+  /// Electrons of A−B for each code, in the mode's gain.                                           [theory: gain-steps]
   template <class Camera>
   static double step_of(const Camera& camera) {
     return camera.adc.step_e_per_dn / camera.mode.gain;
@@ -43,28 +43,28 @@ struct Adc {
 };
 
 template <class F>
-TOFRAY_FN CodeReach<F> reach_of_codes(const Adc::View& s, F offset) {
+TOFRAY_INLINE CodeReach<F> reach_of_codes(const Adc::View& s, F offset) {
   const F zero = F(s.mid_code) + offset;
   return {-zero * F(s.step), (F(s.max_code) - zero) * F(s.step)};
 }
-/// A−B without rounding, held to what the codes reach.                                              [theory: eq. 3.13]
+/// A−B without rounding, held to what the codes reach.                                  [theory: noiseless-difference]
 template <class F>
-TOFRAY_FN F held_to_codes(const CodeReach<F>& reach, F difference) {
+TOFRAY_INLINE F held_to_codes(const CodeReach<F>& reach, F difference) {
   return num::min(num::max(difference, reach.least), reach.most);
 }
 
-/// The ADC's level of A−B before it is rounded: (A−B)/s + mid + offset.                              [theory: eq. 3.8]
+/// The ADC's level of A−B before it is rounded: (A−B)/s + mid + offset.                                  [theory: adc]
 template <class F>
-TOFRAY_FN F level_of(const Adc::View& s, F difference, F offset) {
+TOFRAY_INLINE F level_of(const Adc::View& s, F difference, F offset) {
   return num::fma(difference, F(s.per_step), F(s.mid_code) + offset);
 }
 
-/// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.   [theory: eq. 3.8]
+/// Full well per tap, then A−B through the ADC: DN = round((A−B)/s + mid + offset), held to the code range.       [theory: adc]
 /// @param charge  what is read of both taps
 /// @param reach   of the codes, offset included; asked for where noise is off
 /// @param known   a function that says of the taps' difference what it is without noise
 template <class F, class Sensor, class Known>
-TOFRAY_FN flow::Taps<F> read_out(const Sensor& s, const Means<F>& charge, F offset, const CodeReach<F>& reach, const Known& known) {
+TOFRAY_INLINE flow::Taps<F> read_out(const Sensor& s, const TapPair<F>& charge, F offset, const CodeReach<F>& reach, const Known& known) {
   flow::Taps<F> out;
   out.a = num::min(charge.a, F(s.full_read)), out.b = num::min(charge.b, F(s.full_read));
   const F difference = out.a - out.b;
@@ -75,9 +75,8 @@ TOFRAY_FN flow::Taps<F> read_out(const Sensor& s, const Means<F>& charge, F offs
 }
 
 template <class F, class Sensor>
-TOFRAY_FN flow::Taps<F> read_out(const Sensor& s, const Means<F>& charge, F offset) {
-  return read_out(
-      s, charge, offset, reach_of_codes<F>(s, offset), [](F difference) __attribute__((always_inline)) { return difference; });
+TOFRAY_INLINE flow::Taps<F> read_out(const Sensor& s, const TapPair<F>& charge, F offset) {
+  return read_out(s, charge, offset, reach_of_codes<F>(s, offset), [](F difference) TOFRAY_LAMBDA { return difference; });
 }
 
 }  // namespace tofray::effect

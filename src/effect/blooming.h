@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Full wells that spill into their neighbours.                                                             [theory: eq. 3.32]
+/// Full wells that spill into their neighbours.                                                             [theory: blooming]
 struct Blooming {
   struct View {
     std::int32_t blooms;   ///< 1: they do
@@ -32,18 +32,18 @@ struct Blooming {
 
   /// Charge above full well, both taps together.
   template <class F, class Sensor>
-  TOFRAY_FN static F overflow_of(const Sensor& s, const Means<F>& charge) {
+  TOFRAY_INLINE static F overflow_of(const Sensor& s, const TapPair<F>& charge) {
     return num::max(charge.a - F(s.full_well), F(0.0f)) + num::max(charge.b - F(s.full_well), F(0.0f));
   }
   /// Notes it, for the pass that looks at neighbours.
   template <bool drawn, class F, class Sensor, class Kept>
-  TOFRAY_FN static void change_charge(const Sensor& s, const RawFrameView& frame, int, FrameIndex, Kept& e, Chain<F>& chain) {
+  TOFRAY_INLINE static void change_charge(const Sensor& s, const RawFrameView& frame, int, FrameIndex, Kept& e, Chain<F>& chain) {
     if constexpr (drawn) {
       if (s.blooms != 0 && frame.lit != 0) e.overflow = num::max(e.overflow, overflow_of<F>(s, chain.charge));
     }
   }
   /// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.
-  TOFRAY_FN static bool flags(const View& s, float spilled) { return spilled * s.blooming_share > s.blooming_limit; }
+  TOFRAY_INLINE static bool flags(const View& s, float spilled) { return spilled * s.blooming_share > s.blooming_limit; }
 };
 
 }  // namespace tofray::effect

@@ -4,7 +4,7 @@
 
 namespace tofray::effect {
 
-/// Light of a pixel that its neighbours collect.                                                            [theory: eq. 3.27]
+/// Light of a pixel that its neighbours collect.                                                           [theory: crosstalk]
 struct Crosstalk {
   template <class Pixel>
   static bool on(const Pixel& pixel) {

@@ -4,7 +4,7 @@
 
 namespace tofray::effect {
 
-/// Charge without light.                                                                                    [theory: eq. 3.19]
+/// Charge without light.                                                                                [theory: dark-current]
 struct DarkCurrent {
   /// Electrons of a tap per second at the camera's temperature: twice as many with every `dark_current_doubling_k` kelvin.
   /// @param exp  the exponential function

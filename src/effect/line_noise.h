@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Noise of columns and rows: one draw for all pixels of a line, another one in each raw frame.              [theory: eq. 3.15]
+/// Noise of columns and rows: one draw for all pixels of a line, another one in each raw frame.          [theory: column-noise]
 ///
 /// A frame has few lines and many pixels, so that each line is drawn once, before the first pixel is exposed: standard normals
 /// [raw_frames][width + height], columns first.
@@ -39,17 +39,17 @@ struct LineNoise {
   }
 
   template <class Sensor>
-  TOFRAY_FN static bool draws_lines(const Sensor& s) {
+  TOFRAY_INLINE static bool draws_lines(const Sensor& s) {
     return s.lines_are_noisy != 0 && s.noise != Noise::off;
   }
   /// Lines of a raw frame.
   template <class Sensor>
-  TOFRAY_FN static int lines_of(const Sensor& s) {
+  TOFRAY_INLINE static int lines_of(const Sensor& s) {
     return s.width + s.height;
   }
   /// Draws of all lines of a frame.
   template <class Sensor>
-  TOFRAY_FN static int line_draws(const Sensor& s) {
+  TOFRAY_INLINE static int line_draws(const Sensor& s) {
     return draws_lines(s) ? s.raw_frames * lines_of(s) : 0;
   }
 
@@ -57,7 +57,7 @@ struct LineNoise {
   /// @param kind     of_column or of_row
   /// @param normals  of the frame
   template <class F, class Sensor>
-  TOFRAY_FN static void draw_lines(const Sensor& s, int k, FrameIndex index, Purpose kind, int first, int count, float* normals) {
+  TOFRAY_INLINE static void draw_lines(const Sensor& s, int k, FrameIndex index, Purpose kind, int first, int count, float* normals) {
     const num::Random4<F> words = draw<F>(s, num::Int<F>(first) + num::lane_index<F>(), k, index, kind);
     F normal, other;
     num::normal_pair<F>(words.w[0], words.w[1], normal, other);
@@ -65,7 +65,7 @@ struct LineNoise {
   }
   /// Draw number `number` of a frame: that of one line.
   template <class Sensor>
-  TOFRAY_FN static void draw_line(const Sensor& s, FrameIndex index, int number, float* normals) {
+  TOFRAY_INLINE static void draw_line(const Sensor& s, FrameIndex index, int number, float* normals) {
     const int k = number / lines_of(s), line = number % lines_of(s);
     const bool row = line >= s.width;
     draw_lines<float>(s, k, index, row ? of_row : of_column, row ? line - s.width : line, 1, normals);
@@ -73,20 +73,20 @@ struct LineNoise {
   /// All lines of one kind in raw frame k.
   /// @param count  how many there are
   template <class F, class Sensor>
-  TOFRAY_FN static void draw_all_lines(const Sensor& s, int k, FrameIndex index, Purpose kind, int count, float* normals) {
+  TOFRAY_INLINE static void draw_all_lines(const Sensor& s, int k, FrameIndex index, Purpose kind, int count, float* normals) {
     for (int i = 0; i < count; i += num::lanes<F>) {
       draw_lines<F>(s, k, index, kind, i, count - i < num::lanes<F> ? count - i : num::lanes<F>, normals);
     }
   }
 
   template <class Sensor>
-  TOFRAY_FN static LinesOfPack lines_through(const Sensor& s, const flow::Pixels& p, const float* normals) {
+  TOFRAY_INLINE static LinesOfPack lines_through(const Sensor& s, const flow::Pixels& p, const float* normals) {
     if (!draws_lines(s)) return {nullptr, nullptr, 0};
     return {normals + p.index % s.width, normals + s.width + p.index / s.width, p.count};
   }
   /// Adds that of a pixel's column and of its row to the ADC's offset.
   template <bool drawn, class F, class Sensor, class Kept>
-  TOFRAY_FN static void change_charge(const Sensor& s, const RawFrameView&, int k, FrameIndex, Kept& e, Chain<F>& chain) {
+  TOFRAY_INLINE static void change_charge(const Sensor& s, const RawFrameView&, int k, FrameIndex, Kept& e, Chain<F>& chain) {
     if (!drawn || e.lines.columns == nullptr) return;
     const int at = k * lines_of(s);
     const F of_columns = num::fma(F(s.column_noise), num::load<F>(e.lines.columns + at, e.lines.count), chain.offset);

@@ -21,8 +21,8 @@
 ///     T::View           its numbers for kernels: a part of SensorView
 ///     T::set            sets them, out of a camera
 ///     T::on             its switch: whether a sensor has it
-///     T::bin            its numbers where n × n pixels are read as one                                    [theory: eq. 4.25, 4.26]
-///     T::variance       what it adds to the variance of A−B whatever the charge [e²]                              [theory: eq. 3.9]
+///     T::bin            its numbers where n × n pixels are read as one                    [theory: binned-charge, binned-patterns]
+///     T::variance       what it adds to the variance of A−B whatever the charge [e²]                          [theory: phase-noise]
 ///
 /// and its formula, one of three:
 ///
@@ -71,7 +71,8 @@ template <class... T, class Pixel>
 void bin_each(num::List<T...>, Pixel& pixel, int n) {
   (T::bin(pixel, n), ...);
 }
-/// Charges of n × n pixels add before they are read: what is of each pixel adds, what the amplifier does comes once. [theory: eq. 4.25, 4.26]
+/// Charges of n × n pixels add before they are read: what is of each pixel adds, what the amplifier does comes once.
+///                                                                                                 [theory: binned-charge, binned-patterns]
 template <class Pixel>
 void bin(Pixel& pixel, int n) {
   bin_each(Effects{}, pixel, n), bin_each(Always{}, pixel, n);
@@ -83,7 +84,7 @@ double variance_of_each(num::List<T...>, const Camera& camera) {
   ((sum += T::variance(camera)), ...);
   return sum;
 }
-/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].                [theory: eq. 3.9, 3.15]
+/// Variance of A−B that has nothing to do with charge: rounding, column and row noise [e²].    [theory: phase-noise, column-noise]
 template <class Camera>
 double output_variance(const Camera& camera) {
   return variance_of_each(Effects{}, camera);
@@ -99,29 +100,29 @@ constexpr bool changes_charge = requires(const SensorView& s, const RawFrameView
   T::template change_charge<true>(s, frame, 0, index, e, chain);
 };
 template <class T, class F>
-constexpr bool changes_reading = requires(const SensorView& s, Means<F>& charge) {
+constexpr bool changes_reading = requires(const SensorView& s, TapPair<F>& charge) {
   T::change_reading(s, charge);
 };
 
 template <class... T, class F>
-TOFRAY_FN void change_rates(num::List<T...>, const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
+TOFRAY_INLINE void change_rates(num::List<T...>, const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
   static_assert(((changes_rates<T, F> + changes_charge<T, F> + changes_reading<T, F> == 1) && ...), "an effect has one formula");
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_rates<One, F>) One::change_rates(frame, orders, light, rates);
   };
   (one(num::List<T>{}), ...);
 }
 template <bool drawn, class... T, class Kept, class F>
-TOFRAY_FN void change_charge(num::List<T...>, const SensorView& s, const RawFrameView& frame, int k, FrameIndex index, Kept& e,
-                             Chain<F>& chain) {
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+TOFRAY_INLINE void change_charge(num::List<T...>, const SensorView& s, const RawFrameView& frame, int k, FrameIndex index, Kept& e,
+                                 Chain<F>& chain) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_charge<One, F>) One::template change_charge<drawn>(s, frame, k, index, e, chain);
   };
   (one(num::List<T>{}), ...);
 }
 template <class... T, class F>
-TOFRAY_FN void change_reading(num::List<T...>, const SensorView& s, Means<F>& charge) {
-  const auto one = [&]<class One>(num::List<One>) __attribute__((always_inline)) {
+TOFRAY_INLINE void change_reading(num::List<T...>, const SensorView& s, TapPair<F>& charge) {
+  const auto one = [&]<class One>(num::List<One>) TOFRAY_LAMBDA {
     if constexpr (changes_reading<One, F>) One::change_reading(s, charge);
   };
   (one(num::List<T>{}), ...);

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.        [theory: eq. 3.18]
+/// What is read of a tap's charge: lines between equidistant charges from 0 on; the last one goes on.    [theory: nonlinearity]
 struct ReadCurveView {
   const float* cell;  ///< [cells][2] what is read where a cell begins, and how much more at its end; null: the charge itself
   std::int32_t cells;
@@ -14,7 +14,7 @@ struct ReadCurveView {
   bool operator==(const ReadCurveView&) const = default;
 };
 
-/// What is read of a tap's charge, and how it grows with it.                                               [theory: eq. 3.18]
+/// What is read of a tap's charge, and how it grows with it.                                           [theory: nonlinearity]
 template <class F>
 struct ReadCharge {
   F value, slope;
@@ -22,7 +22,7 @@ struct ReadCharge {
 
 /// @param curve  not null; below 0 its first line goes on, beyond its end the last
 template <class F>
-TOFRAY_FN ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
+TOFRAY_INLINE ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
   const F place = charge * F(curve.per_cell);
   const F cell = num::min(num::max(num::floor(place), F(0.0f)), F(static_cast<float>(curve.cells - 1)));
   F value, step;
@@ -32,7 +32,7 @@ TOFRAY_FN ReadCharge<F> read_charge(const ReadCurveView& curve, F charge) {
 
 /// The cell in which this is read, by halves: a curve may bend to either side. There is a power of two of cells.
 template <class F>
-TOFRAY_FN F cell_of(const ReadCurveView& curve, F read) {
+TOFRAY_INLINE F cell_of(const ReadCurveView& curve, F read) {
   F cell = F(0.0f), value, step;
   for (std::int32_t half = curve.cells / 2; half > 0; half /= 2) {
     const F upper = cell + F(static_cast<float>(half));
@@ -42,9 +42,9 @@ TOFRAY_FN F cell_of(const ReadCurveView& curve, F read) {
   return cell;
 }
 
-/// Charge of which this is read: read_charge the other way round.                                          [theory: eq. 4.21]
+/// Charge of which this is read: read_charge the other way round.                                     [theory: noise-as-read]
 template <class F>
-TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
+TOFRAY_INLINE F charge_of(const ReadCurveView& curve, F read) {
   // Most curves are nearly straight: along the line at a first guess lies the cell, unless its neighbour's beginning says otherwise.
   const F last = F(static_cast<float>(curve.cells - 1));
   F cell = num::min(num::max(num::floor(read * F(curve.per_cell)), F(0.0f)), last), value, step, next, unused;
@@ -62,7 +62,7 @@ TOFRAY_FN F charge_of(const ReadCurveView& curve, F read) {
 }
 
 /// Full well per tap, and what is read of it. The well comes first: it holds charge, and the curve is that of the amplifier behind.
-///                                                                                                          [theory: eq. 3.18]
+///                                                                                                      [theory: nonlinearity]
 struct Nonlinearity {
   struct View {
     float full_well;  ///< [e⁻] of a tap
@@ -107,7 +107,7 @@ struct Nonlinearity {
   }
 
   template <class F>
-  TOFRAY_FN static void change_reading(const View& s, Means<F>& charge) {
+  TOFRAY_INLINE static void change_reading(const View& s, TapPair<F>& charge) {
     if (s.read.cell == nullptr) return;
     charge = {read_charge(s.read, num::min(charge.a, F(s.full_well))).value, read_charge(s.read, num::min(charge.b, F(s.full_well))).value};
   }

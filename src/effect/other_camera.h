@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Light of another camera that shines on the same surfaces.                                                [theory: eq. 3.24]
+/// Light of another camera that shines on the same surfaces.                                            [theory: interference]
 struct OtherCamera {
   /// Its numbers stand in the raw frames, which each have their own.
   struct View {
@@ -27,7 +27,7 @@ struct OtherCamera {
 
   /// What it adds to the rate of both taps together and, where the gate swings, to that of their difference.
   template <class F>
-  TOFRAY_FN static void change_rates(const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
+  TOFRAY_INLINE static void change_rates(const RawFrameView& frame, int orders, const flow::Light<F>& light, Rates<F>& rates) {
     if (frame.other == nullptr) return;
     rates.ambient = num::fma(light.signal_rate, F(frame.other_light), rates.ambient);
     if (frame.lit == 0) return;

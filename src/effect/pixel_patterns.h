@@ -4,7 +4,7 @@
 
 namespace tofray::effect {
 
-/// Gains, offsets, delays and phases that differ from pixel to pixel.                                 [theory: eq. 3.17, 4.26]
+/// Gains, offsets, delays and phases that differ from pixel to pixel.                  [theory: phase-offset, binned-patterns]
 struct PixelPatterns {
   /// Of n × n pixels that are read together gains, delays and phases are means, and offsets, in codes, a sum.
   template <class Pixel>

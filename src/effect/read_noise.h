@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Reset and read noise of a tap.                                                                           [theory: eq. 3.29]
+/// Reset and read noise of a tap.                                                                        [theory: reset-noise]
 struct ReadNoise {
   struct View {
     float read_noise, read_variance;  ///< [e⁻], [e²]

@@ -19,14 +19,14 @@ struct RawFrameView {
   float dark;               ///< dark electrons of a tap
   Gate gate_kind;
   const float* gate;  ///< [orders][2] cos and sin of m(τ − τ_0 + δ), δ the phase of temperature drift
-  /// Gate for another camera's light, times its share of the own; null: there is no other camera.            [theory: eq. 3.24]
+  /// Gate for another camera's light, times its share of the own; null: there is no other camera.        [theory: interference]
   const float* other;
   float other_light;  ///< its share of the own
 };
 
-/// Light that meets a gate: Re Σ_m Z_m·e^{imτ} at any τ.                                              [theory: eq. 3.2]
+/// Light that meets a gate: Re Σ_m Z_m·e^{imτ} at any τ.                                          [theory: correlation]
 template <int orders, class F>
-TOFRAY_FN F correlated(const float* gate, const F* real, const F* imaginary) {
+TOFRAY_INLINE F correlated(const float* gate, const F* real, const F* imaginary) {
   F sum = F(0.0f);
   for (int h = 0; h < orders; ++h) sum = num::fma(real[h], F(gate[2 * h]), num::fnma(imaginary[h], F(gate[2 * h + 1]), sum));
   return sum;
@@ -37,7 +37,7 @@ enum Purpose : std::uint32_t { shot_and_read = 0, merged = 1, suppression = 2, o
 
 /// How charge is drawn: shot and read noise apart, or merged into one draw, whose law is as good as theirs from this read noise on.
 enum class Noise : std::int32_t { off, apart, merged };
-constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                      [theory: eq. 3.11]
+constexpr double least_merged_read_noise = 4;  ///< [e⁻]                                                  [theory: merged-noise]
 
 /// What a sensor has whatever its effects are.
 struct SensorBase {
@@ -60,14 +60,14 @@ struct FrameIndex {
 };
 
 template <class F, class Sensor>
-TOFRAY_FN num::Random4<F> draw(const Sensor& s, num::Int<F> pixel, int raw_frame, FrameIndex frame, Purpose purpose) {
+TOFRAY_INLINE num::Random4<F> draw(const Sensor& s, num::Int<F> pixel, int raw_frame, FrameIndex frame, Purpose purpose) {
   return num::philox<F>(num::to_uint(pixel), static_cast<std::uint32_t>(raw_frame) | (static_cast<std::uint32_t>(purpose) << 16), frame.low,
                         frame.high, s.keys);
 }
 
 /// Electrons of the two taps.
 template <class F>
-struct Means {
+struct TapPair {
   F a, b;
 };
 
@@ -81,11 +81,11 @@ struct TapWords {
 
 /// A normal for each tap of raw frame k. Each of three words has a radius of 24 bits and 8 of an angle, the fourth ten more for each angle.
 template <class F, class Sensor>
-TOFRAY_FN Means<F> tap_normals(const Sensor& s, num::Int<F> pixel, int k, FrameIndex frame, Purpose purpose, TapWords<F>& words) {
+TOFRAY_INLINE TapPair<F> tap_normals(const Sensor& s, num::Int<F> pixel, int k, FrameIndex frame, Purpose purpose, TapWords<F>& words) {
   const int place = k % 3;
   if (words.first != k - place) words.block = draw<F>(s, pixel, k - place, frame, purpose), words.first = k - place;
   const num::Uint<F> radius = words.block.w[place], more = ((words.block.w[3] << (10 * place)) >> 8) & num::Uint<F>(0x00ffc000u);
-  Means<F> out;
+  TapPair<F> out;
   num::normal_pair<F>(radius, (radius << 24) | more, out.a, out.b);
   return out;
 }
@@ -100,7 +100,7 @@ struct Rates {
 /// Charge of one raw frame, and the ADC's offset, on their way through the effects.
 template <class F>
 struct Chain {
-  Means<F> charge;
+  TapPair<F> charge;
   F offset;  ///< [DN]
 };
 

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Background suppression: equal charge off both taps.                                                      [theory: eq. 3.7]
+/// Background suppression: equal charge off both taps.                                       [theory: background-suppression]
 struct Suppression {
   struct View {
     float suppression_threshold, suppression_budget;  ///< [e⁻] of a tap; threshold 0: no suppression
@@ -44,18 +44,18 @@ struct Suppression {
 
   /// x = min(budget, max(0, min(A, B) − threshold)).
   template <class F>
-  TOFRAY_FN static F removed(const View& s, const Means<F>& charge) {
+  TOFRAY_INLINE static F removed(const View& s, const TapPair<F>& charge) {
     const F excess = num::max(num::min(charge.a, charge.b) - F(s.suppression_threshold), F(0.0f));
     return num::min(excess, F(s.suppression_budget));
   }
   /// Takes it off; each removal adds its own variance κ²·x.
   template <class F, class Sensor>
-  TOFRAY_FN static Means<F> suppress(const Sensor& s, const Means<F>& charge, num::Int<F> pixel, int k, FrameIndex frame,
-                                     TapWords<F>& words) {
+  TOFRAY_INLINE static TapPair<F> suppress(const Sensor& s, const TapPair<F>& charge, num::Int<F> pixel, int k, FrameIndex frame,
+                                           TapWords<F>& words) {
     const F off = removed<F>(s, charge);
-    Means<F> left{charge.a - off, charge.b - off};
+    TapPair<F> left{charge.a - off, charge.b - off};
     if (s.noise != Noise::off && s.suppression_noise > 0 && num::any(off > F(0.0f))) {
-      const Means<F> normal = tap_normals<F>(s, pixel, k, frame, Purpose::suppression, words);
+      const TapPair<F> normal = tap_normals<F>(s, pixel, k, frame, Purpose::suppression, words);
       const F sigma = F(s.suppression_noise) * num::sqrt(off);
       left.a = num::fma(sigma, normal.a, left.a), left.b = num::fma(sigma, normal.b, left.b);
     }
@@ -63,7 +63,7 @@ struct Suppression {
   }
 
   template <bool drawn, class F, class Sensor, class Kept>
-  TOFRAY_FN static void change_charge(const Sensor& s, const RawFrameView&, int k, FrameIndex index, Kept& e, Chain<F>& chain) {
+  TOFRAY_INLINE static void change_charge(const Sensor& s, const RawFrameView&, int k, FrameIndex index, Kept& e, Chain<F>& chain) {
     if (!(s.suppression_threshold > 0)) return;
     if constexpr (drawn) {
       chain.charge = suppress<F>(s, chain.charge, e.pixel, k, index, e.suppression_words);

@@ -5,7 +5,7 @@
 
 namespace tofray::effect {
 
-/// Taps of which one collects more than the other, and holds more before any charge comes.                  [theory: eq. 3.16]
+/// Taps of which one collects more than the other, and holds more before any charge comes.              [theory: tap-mismatch]
 struct TapMismatch {
   struct View {
     std::int32_t taps_differ;    ///< 1: by the two numbers below
@@ -32,15 +32,15 @@ struct TapMismatch {
 
   /// One tap collects 1 + g/2 of what it should, the other 1 − g/2.
   template <class F>
-  TOFRAY_FN static void change_gains(const View& s, Exposure<F>& e) {
+  TOFRAY_INLINE static void change_gains(const View& s, Exposure<F>& e) {
     if (s.half_gain_mismatch == 0) return;
     e.gain_a = num::fma(e.gain_a, F(s.half_gain_mismatch), e.gain_a);
     e.gain_b = num::fnma(e.gain_b, F(s.half_gain_mismatch), e.gain_b);
   }
 
-  /// PRNU is of light alone: dark charge comes as if there were none.                                      [theory: eq. 3.6]
+  /// PRNU is of light alone: dark charge comes as if there were none.                                 [theory: charge-order]
   template <class F>
-  TOFRAY_FN static Means<F> dark_less_in_gain(const View& s, const RawFrameView& frame, const Exposure<F>& e) {
+  TOFRAY_INLINE static TapPair<F> dark_less_in_gain(const View& s, const RawFrameView& frame, const Exposure<F>& e) {
     const F half = F(s.half_gain_mismatch), dark = F(frame.dark);
     return {dark * ((F(1.0f) + half) - e.gain_a), dark * ((F(1.0f) - half) - e.gain_b)};
   }
@@ -48,18 +48,18 @@ struct TapMismatch {
   /// A−B of a lit raw frame without noise.
   /// @param common, rate  electrons per second of both taps together, and of their difference
   template <class F, class Sensor>
-  TOFRAY_FN static F known_difference(const Sensor& s, const RawFrameView& frame, F common, F rate, const Exposure<F>& e) {
+  TOFRAY_INLINE static F known_difference(const Sensor& s, const RawFrameView& frame, F common, F rate, const Exposure<F>& e) {
     const F of_rate = F(0.5f * frame.integration_time) * rate * (e.gain_a + e.gain_b);
     const F each = num::fma(common, F(0.5f * frame.integration_time), F(frame.dark));
     const F difference = num::fma(each, e.gain_a - e.gain_b, of_rate) + F(2 * s.half_offset_mismatch);
     if (s.gain == nullptr) return difference;
-    const Means<F> less = dark_less_in_gain<F>(s, frame, e);
+    const TapPair<F> less = dark_less_in_gain<F>(s, frame, e);
     return difference + (less.a - less.b);
   }
 
   /// What the taps hold before any charge comes.
   template <bool drawn, class F, class Kept>
-  TOFRAY_FN static void change_charge(const View& s, const RawFrameView&, int, FrameIndex, Kept&, Chain<F>& chain) {
+  TOFRAY_INLINE static void change_charge(const View& s, const RawFrameView&, int, FrameIndex, Kept&, Chain<F>& chain) {
     if (s.half_offset_mismatch == 0) return;
     chain.charge = {chain.charge.a + F(s.half_offset_mismatch), chain.charge.b - F(s.half_offset_mismatch)};
   }

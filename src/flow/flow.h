@@ -45,13 +45,13 @@ struct Ray {
 };
 
 template <class F>
-TOFRAY_FN F square_of(F x, F y, F z) {
+TOFRAY_INLINE F square_of(F x, F y, F z) {
   return num::fma(x, x, num::fma(y, y, z * z));
 }
 
 /// A ray of any direction but zero.
 template <class F>
-TOFRAY_FN Ray<F> make_ray(F x, F y, F z) {
+TOFRAY_INLINE Ray<F> make_ray(F x, F y, F z) {
   const F square = square_of(x, y, z);
   return {x, y, z, square, F(1.0f) / num::sqrt(num::max(square, F(1e-30f)))};
 }
@@ -64,7 +64,7 @@ struct Hit {
   num::Int<F> triangle;  ///< where the facet is a mesh: which of its triangles
 };
 template <class F>
-TOFRAY_FN Hit<F> no_hit() {
+TOFRAY_INLINE Hit<F> no_hit() {
   return {F(0.0f), num::Int<F>(0), num::Int<F>(0)};
 }
 
@@ -107,7 +107,7 @@ struct Path {
 /// All light that reaches the pixel, over any number of paths: what stage 3 needs to know of it.
 ///
 ///     S    = Σ_paths rate
-///     Z_jm = Σ_paths a_m·e^{iψ_m}·rate·e^{imφ_j},   φ_j = 2π f_j n ℓ/c                             [theory: eq. 1.6]
+///     Z_jm = Σ_paths a_m·e^{iψ_m}·rate·e^{imφ_j},   φ_j = 2π f_j n ℓ/c                    [theory: received-phasors]
 ///
 /// for each modulation frequency f_j and odd harmonic m, at [j·orders + (m − 1)/2].
 template <class F>

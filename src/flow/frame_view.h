@@ -20,7 +20,7 @@ constexpr int array_count = 0 TOFRAY_IMAGE_ARRAYS(TOFRAY_ONE_MORE);
 
 /// Calls visit(pointer, shape, stage that writes it) for each array of a view, in the table's order.
 template <class View, class Visit>
-TOFRAY_FN void each_array(View& view, const Visit& visit) {
+TOFRAY_INLINE void each_array(View& view, const Visit& visit) {
 #define TOFRAY_VISIT(name, part, member, element, shape, stage, ...) visit(view.name, ArrayShape::shape, Stage::stage);
   TOFRAY_IMAGE_ARRAYS(TOFRAY_VISIT)
 #undef TOFRAY_VISIT
@@ -32,11 +32,11 @@ struct FrameSize {
   bool operator==(const FrameSize&) const = default;
 };
 /// Values of each pixel in each image of an array.
-TOFRAY_FN std::int64_t values_of_pixel(ArrayShape shape) {
+TOFRAY_INLINE std::int64_t values_of_pixel(ArrayShape shape) {
   return shape == ArrayShape::vectors ? 3 : shape == ArrayShape::pairs || shape == ArrayShape::moved ? 2 : 1;
 }
 /// Values of an array; `list` lies on the host alone and is none of these.
-TOFRAY_FN std::int64_t values_of(ArrayShape shape, const FrameSize& size) {
+TOFRAY_INLINE std::int64_t values_of(ArrayShape shape, const FrameSize& size) {
   const std::int64_t pixels = size.pixels;
   switch (shape) {
     case ArrayShape::stack: return size.phases * pixels;

@@ -6,7 +6,7 @@
 namespace tofray::flow {
 
 /// The light of all pixels, between stages 2 and 3: where a pixel's light is a sum that one look at the scene does not give, it is gathered
-/// here. All of it is linear: sums of images are images of sums.                                        [theory: eq. 7.1]
+/// here. All of it is linear: sums of images are images of sums.                                    [theory: light-image]
 ///
 /// Planes: S, the ambient rate, then of each modulation frequency what flow::Light has of it: in_phase and quarter where those are enough
 /// (PhasorView::sums_alone), else all orders' real parts, then all imaginary ones. Where something moves there is a time for each raw frame,

@@ -21,10 +21,10 @@ namespace tofray::load {
 
 namespace {
 
-using model::Form;
 using model::Key;
+using model::ValueForm;
 using yaml::Node;
-using FormKind = Form::Kind;
+using FormKind = ValueForm::Kind;
 
 constexpr std::size_t longest_text = 4000, longest_vector = 4;
 
@@ -46,7 +46,7 @@ double size_of(const std::string& unit) {
   return found == nullptr ? 1 : std::pow(10, found->exponent) * found->factor;
 }
 
-std::string unit_of_example(const Form& form) { return base::parse_quantity(form.example, form.dimension).unit; }
+std::string unit_of_example(const ValueForm& form) { return base::parse_quantity(form.example, form.dimension).unit; }
 
 std::string name_of(base::Dimension dimension) {
   if (dimension == base::Dimension::none) return "none";
@@ -76,7 +76,7 @@ class Rows {
   void set_label(const std::string& label) { label_ = label; }
 
   /// @param map  null where it is absent
-  void keys(const Form& form, const Node* map, const Scope& scope) {
+  void keys(const ValueForm& form, const Node* map, const Scope& scope) {
     const bool absent_map = map == nullptr || map->kind != Node::Kind::map;
     for (const Key& key : form.keys) {
       Scope here = scope;
@@ -101,7 +101,7 @@ class Rows {
     }
   }
 
-  void value(const Key& key, const Form& form, const Node* node, Scope scope) {
+  void value(const Key& key, const ValueForm& form, const Node* node, Scope scope) {
     if (node != nullptr) {
       provenance(*node, scope);
       node = &plain(*node);
@@ -140,7 +140,7 @@ class Rows {
   }
 
   /// Keys that go with some ways to say a thing alone.
-  static bool excluded(const Form& form, const Node* map, const std::string& key) {
+  static bool excluded(const ValueForm& form, const Node* map, const std::string& key) {
     const auto is_there = [&](const char* other) { return map != nullptr && map->find(other) != nullptr; };
     const auto has_key = [&](const char* name) {
       return std::any_of(form.keys.begin(), form.keys.end(), [&](const Key& one) { return one.name == name; });
@@ -164,7 +164,7 @@ class Rows {
   }
 
   /// Of a number or a whole one: its value and its slider.
-  static void measure(Control& one, const Form& form, const std::vector<std::string>& texts) {
+  static void measure(Control& one, const ValueForm& form, const std::vector<std::string>& texts) {
     one.form = &form;
     std::vector<double> numbers;
     for (const std::string& text : texts) {
@@ -181,7 +181,7 @@ class Rows {
   }
 
   /// A tenth to ten times the value, within what the key may be.
-  static void slide(Control& one, const Form& form) {
+  static void slide(Control& one, const ValueForm& form) {
     const double low = in_unit(form.low, one.unit), high = in_unit(form.high, one.unit);
     const double usual = std::abs(in_unit(base::parse_quantity(form.example, form.dimension).value, one.unit));
     double most = 0;
@@ -206,7 +206,7 @@ class Rows {
 
  private:
   /// Two lists, one over the other.
-  static bool is_curve(const Form& form) {
+  static bool is_curve(const ValueForm& form) {
     return form.keys.size() == 2 &&
            std::all_of(form.keys.begin(), form.keys.end(), [](const Key& key) { return key.form.kind == FormKind::list && key.required; });
   }
@@ -227,8 +227,8 @@ class Rows {
     scope.source = (source != nullptr ? source : assumed)->text;
   }
 
-  static const Form& chosen(const Form& form, const Node* node) {
-    const auto fits = [&](const Form& one) {
+  static const ValueForm& chosen(const ValueForm& form, const Node* node) {
+    const auto fits = [&](const ValueForm& one) {
       if (node == nullptr || node->kind == Node::Kind::scalar || node->kind == Node::Kind::null) return model::is_scalar(one);
       if (node->kind == Node::Kind::list) return one.kind == FormKind::list;
       return !model::is_scalar(one) && one.kind != FormKind::list;
@@ -237,7 +237,7 @@ class Rows {
     return found == form.forms.end() ? form.forms[0] : *found;
   }
 
-  void scalar(const Key& key, const Form& form, const Node* node, const Scope& scope) {
+  void scalar(const Key& key, const ValueForm& form, const Node* node, const Scope& scope) {
     using Kind = Control::Kind;
     const Kind kind = form.kind == FormKind::number    ? Kind::number
                       : form.kind == FormKind::integer ? Kind::integer
@@ -263,8 +263,8 @@ class Rows {
     if (one.settable && text.size() <= longest_text) one.text = std::move(text);
   }
 
-  void list(const Key& key, const Form& form, const Node* node, const Scope& scope) {
-    const Form& item = form.forms[0];
+  void list(const Key& key, const ValueForm& form, const Node* node, const Scope& scope) {
+    const ValueForm& item = form.forms[0];
     const bool of_values = model::is_scalar(item) || item.kind == FormKind::list;
     if (!of_values && node != nullptr && !node->items.empty()) {
       for (std::size_t i = 0; i < node->items.size(); ++i) {
@@ -291,7 +291,7 @@ class Rows {
     measure(one, item, texts);
   }
 
-  void tagged(const Key& key, const Form& form, const Node* node, const Scope& scope) {
+  void tagged(const Key& key, const ValueForm& form, const Node* node, const Scope& scope) {
     const Node* said = node == nullptr ? nullptr : node->kind == Node::Kind::scalar ? node : node->find(form.tag);
     const bool is_map = node != nullptr && node->kind == Node::Kind::map && !node->items.empty();
     if (said != nullptr) said = &plain(*said);
@@ -317,7 +317,7 @@ class Rows {
   std::vector<Control>& out_;
 };
 
-const Key& key_of(const Form& form, const std::string& name) {
+const Key& key_of(const ValueForm& form, const std::string& name) {
   return *std::find_if(form.keys.begin(), form.keys.end(), [&](const Key& key) { return key.name == name; });
 }
 
@@ -338,7 +338,7 @@ const Node* exposure_of(const Node& mode, bool& same) {
 }
 
 /// A mode's keys; of what modes may have otherwise than the profile, what it has.
-void mode_rows(Rows& rows, const Form& form, const Node& mode, const Scope& scope) {
+void mode_rows(Rows& rows, const ValueForm& form, const Node& mode, const Scope& scope) {
   for (const Key& key : form.keys) {
     Scope here = scope;
     here.path += "." + key.name;
@@ -371,7 +371,7 @@ void camera_rows(Rows& rows, Node root, const std::string& source, std::vector<C
   // What a mode says counts more than what the profile does.
   for (const std::string& section : of_mode)
     if (const Node* own = mode.find(section)) yaml::set_key(root, section, *own, place);
-  const Form& form = model::camera_form().root;
+  const ValueForm& form = model::camera_form().root;
   Scope top{"camera", {}, false, true, true};
   Control& which = rows.row({"camera.mode", {}, false, true, true}, key_of(form, "mode").doc, Control::Kind::choice);
   which.text = name, which.choices = names;
@@ -410,10 +410,10 @@ std::vector<Control> controls_of(const Scene& scene, std::string_view text, cons
   std::vector<Control> out;
   Rows rows(settings, out);
   const Node root = scene_tree(text, scene.source, settings);
-  const Form& form = model::scene_form().root;
+  const ValueForm& form = model::scene_form().root;
   const Node *of_camera = root.find("camera"), *world_up = root.find("world_up");
   rows.set_up_is_usual(world_up == nullptr || world_up->text == "-y");
-  const Form& choice = key_of(form, "camera").form;
+  const ValueForm& choice = key_of(form, "camera").form;
   Scope top{"camera", {}, false, true, true};
   for (const Key& key : choice.keys) {
     if (key.name == "mode") continue;
@@ -453,7 +453,7 @@ files::Json json_of(const Control& control) {
   out.set("key", control.key).set("part", control.part).set("group", control.group).set("name", control.name);
   if (!control.label.empty()) out.set("label", control.label);
   out.set("kind", kinds[static_cast<int>(control.kind)]);
-  const Form* form = control.form;
+  const ValueForm* form = control.form;
   if (form != nullptr && (form->kind == FormKind::number || form->kind == FormKind::integer)) {
     const std::string unit = control.unit.empty() && control.kind == Kind::list && !form->bare ? unit_of_example(*form) : control.unit;
     out.set("unit", unit).set("dimension", name_of(form->dimension));

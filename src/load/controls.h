@@ -21,15 +21,15 @@ struct Control {
   std::string name;   ///< the rest
   std::string label;  ///< of the object that it belongs to
   Kind kind = Kind::number;
-  const model::Form* form = nullptr;  ///< of the value; of a vector's or a list's items where these are numbers
-  std::string unit;                   ///< of `value`, `low`, `high` and `slider`
-  std::optional<std::string> text;    ///< in force, as --set takes it: with it, the frame has the same bytes
-  std::vector<double> value;          ///< in force, of numbers and vectors
-  std::vector<std::string> choices;   ///< where there are such
-  std::string fallback;               ///< what holds where the key is absent
-  std::string what;                   ///< one line
-  std::string source;                 ///< where the number comes from, as its profile says it
-  bool assumed = false;               ///< whether the number is an assumption, as its profile says
+  const model::ValueForm* form = nullptr;  ///< of the value; of a vector's or a list's items where these are numbers
+  std::string unit;                        ///< of `value`, `low`, `high` and `slider`
+  std::optional<std::string> text;         ///< in force, as --set takes it: with it, the frame has the same bytes
+  std::vector<double> value;               ///< in force, of numbers and vectors
+  std::vector<std::string> choices;        ///< where there are such
+  std::string fallback;                    ///< what holds where the key is absent
+  std::string what;                        ///< one line
+  std::string source;                      ///< where the number comes from, as its profile says it
+  bool assumed = false;                    ///< whether the number is an assumption, as its profile says
   std::optional<double> slider_low, slider_high;
   bool logarithmic = false;
   bool settable = true;  ///< false: it does not go with another key that is in force

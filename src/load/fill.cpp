@@ -15,9 +15,9 @@ namespace tofray::load {
 
 using files::read_reference;
 using model::CurveSlot;
-using model::Form;
 using model::Row;
 using model::Table;
+using model::ValueForm;
 using yaml::Value;
 
 const Value& at(const Value& map, std::string_view key) {
@@ -121,7 +121,7 @@ void Filler::member(const Value& map, const Row& row, void* record) {
     grid(value, rows, *samples_of);
   } else if (const auto* choice = std::get_if<model::ChoiceSlot>(&slot)) {
     if (!value.is_map()) choice->set(choice->at, index_of(row.form.names, value.text));
-  } else if (row.form.kind != Form::Kind::either || value.either == 0) {
+  } else if (row.form.kind != ValueForm::Kind::either || value.either == 0) {
     std::visit(Plain{value}, slot);
     set_kind(row, record);
   }
@@ -135,7 +135,7 @@ void Filler::curve(const Value& map, const Value& value, const Row& row, const C
                   "expected " + row.x_key + " and " + row.y_key + ", as long as each other");
     if (!x || !y) return;
   } else if (!value.is_map()) {
-    if (row.form.kind == Form::Kind::either) *slot.x = {0}, *slot.y = {value.number};
+    if (row.form.kind == ValueForm::Kind::either) *slot.x = {0}, *slot.y = {value.number};
     return;
   }
   *slot.x = numbers(value[row.x_key]);

@@ -20,16 +20,16 @@ using yaml::parse_value;
 namespace {
 
 using Json = nlohmann::ordered_json;
-using model::Form;
 using model::Key;
-using Kind = Form::Kind;
+using model::ValueForm;
+using Kind = ValueForm::Kind;
 
 Json words(const std::vector<std::string>& names) { return Json(names); }
 
 /// A range's end: whole numbers without a point.
 Json end_of_range(double value) { return Json::parse(base::number_text(value)); }
 
-Json range(const Form& form, const char* type) {
+Json range(const ValueForm& form, const char* type) {
   return {{"type", type}, {"minimum", end_of_range(form.low)}, {"maximum", end_of_range(form.high)}};
 }
 
@@ -50,7 +50,7 @@ class Writer {
   Writer(bool provenance, Json& definitions) : provenance_(provenance), definitions_(definitions) {}
 
   /// @param lax   a part of the whole: nothing is required (a scene's overrides of a profile)
-  Json schema(const Form& form, bool lax = false) {
+  Json schema(const ValueForm& form, bool lax = false) {
     switch (form.kind) {
       case Kind::number: return wrapped(number(form));
       case Kind::integer: return wrapped(range(form, "integer"));
@@ -69,7 +69,7 @@ class Writer {
     return true;
   }
 
-  Json properties(const Form& form, bool lax) {
+  Json properties(const ValueForm& form, bool lax) {
     Json out = Json::object();
     for (const Key& key : form.keys) {
       Json one{{"description", key.doc}};
@@ -89,9 +89,9 @@ class Writer {
     return out;
   }
 
-  Json all_of(const std::vector<Form>& forms, bool lax) {
+  Json all_of(const std::vector<ValueForm>& forms, bool lax) {
     Json all = Json::array();
-    for (const Form& one : forms) all.push_back(schema(one, lax));
+    for (const ValueForm& one : forms) all.push_back(schema(one, lax));
     return all;
   }
 
@@ -114,7 +114,7 @@ class Writer {
     return {{"$ref", "#/$defs/" + found->second}};
   }
 
-  static Json number(const Form& form) {
+  static Json number(const ValueForm& form) {
     const auto units = base::unit_names(form.dimension);
     const Json bare = form.bare ? range(form, "number") : Json{{"const", 0}};
     if (units.empty()) return bare;
@@ -131,12 +131,12 @@ class Writer {
     return {{"anyOf", Json::array({text, bare})}};
   }
 
-  Json list(const Form& form, bool lax) {
+  Json list(const ValueForm& form, bool lax) {
     return {{"type", "array"}, {"items", schema(form.forms[0], lax)}, {"minItems", form.min_items}, {"maxItems", form.max_items}};
   }
 
   /// @param tag   the value that the key form.tag has to have, where it has one
-  Json map(const Form& form, bool lax, const std::string& tag = {}, const std::string& value = {}, bool tag_may_lack = false) {
+  Json map(const ValueForm& form, bool lax, const std::string& tag = {}, const std::string& value = {}, bool tag_may_lack = false) {
     Json properties = Json::object(), required = Json::array();
     if (!tag.empty()) properties[tag] = {{"const", value}};
     if (!tag.empty() && !tag_may_lack) required.push_back(tag);
@@ -155,7 +155,7 @@ class Writer {
     return out;
   }
 
-  Json dictionary(const Form& form, bool lax) {
+  Json dictionary(const ValueForm& form, bool lax) {
     Json out{{"type", "object"},
              {"properties", provenance_ ? provenance_properties() : Json::object()},
              {"additionalProperties", schema(form.forms[0], lax)},
@@ -164,10 +164,10 @@ class Writer {
     return out;
   }
 
-  Json tagged(const Form& form, bool lax) {
+  Json tagged(const ValueForm& form, bool lax) {
     Json all = Json::array(), brief = Json::array();
     for (std::size_t i = 0; i < form.forms.size(); ++i) {
-      const Form& one = form.forms[i];
+      const ValueForm& one = form.forms[i];
       all.push_back(map(one, lax, form.tag, form.names[i], lax || form.names[i] == form.default_tag));
       const bool needs_more = std::any_of(one.keys.begin(), one.keys.end(), [](const Key& key) { return key.required; });
       if (!needs_more && one.exactly_one.empty()) brief.push_back(form.names[i]);
@@ -177,7 +177,7 @@ class Writer {
     return {{"anyOf", std::move(all)}};
   }
 
-  Json variant(const Form& form, bool lax) {
+  Json variant(const ValueForm& form, bool lax) {
     Json properties = Json::object();
     for (std::size_t i = 0; i < form.names.size(); ++i) properties[form.names[i]] = schema(form.forms[i], lax);
     return {{"type", "object"},
@@ -194,7 +194,7 @@ class Writer {
 
 /// A scene's camera section takes the profile's keys, too.
 Json overrides(Json& definitions) {
-  Form rest = model::camera_form().root;
+  ValueForm rest = model::camera_form().root;
   std::erase_if(rest.keys, [](const Key& key) { return key.name == "mode"; });
   return Writer(true, definitions).properties(rest, true);
 }

@@ -10,7 +10,7 @@ const FileForm& camera_form() {
   static const FileForm form = [] {
     FileForm file{"camera", "tofray camera profile: lens, light, pixel, ADC, modes and decoding", form_of(table_of<Camera>()), true};
     const auto most = static_cast<int>(base::limit::modes.value);
-    Form mode = form_of(table_of<Mode>());
+    ValueForm mode = form_of(table_of<Mode>());
     mode.keys.push_back(
         since(Stage::depth, absent("decoding", form_of(table_of<Decoding>()), "keys of decoding that this mode has otherwise")));
     mode.keys.push_back(absent("readout", form_of(table_of<Readout>()), "keys of readout that this mode has otherwise"));

@@ -52,7 +52,7 @@ void each_number(const Slot& slot, const Visit& visit) {
 }
 
 /// What one number of the row may be.
-const Form& number_form(const Form& form) { return form.forms.empty() ? form : number_form(form.forms[0]); }
+const ValueForm& number_form(const ValueForm& form) { return form.forms.empty() ? form : number_form(form.forms[0]); }
 
 bool same(const Slot& a, const Slot& b) {
   return std::visit(
@@ -134,7 +134,7 @@ class Checker {
   bool numbers(const Row& row, const Slot& slot) {
     bool good = true;
     each_number(slot, [&](double value, Spot::Part part, long long index) {
-      const Form& form = part == Spot::x ? row.x : part == Spot::y ? row.y : number_form(row.form);
+      const ValueForm& form = part == Spot::x ? row.x : part == Spot::y ? row.y : number_form(row.form);
       if (value >= form.low && value <= form.high) return true;  // NaN: no
       complaints_.add_named(spot(row, part, index), " is out of range",
                             "got " + number_text(value) + ", expected " + number_text(form.low) + " to " + number_text(form.high),

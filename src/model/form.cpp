@@ -4,9 +4,9 @@
 
 namespace tofray::model {
 
-Form number(base::Dimension dimension, base::Range range, const std::string& example) {
-  Form form;
-  form.kind = Form::Kind::number;
+ValueForm number(base::Dimension dimension, base::Range range, const std::string& example) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::number;
   form.dimension = dimension;
   form.bare = dimension == base::Dimension::none || dimension == base::Dimension::fraction;
   form.low = range.low;
@@ -15,75 +15,75 @@ Form number(base::Dimension dimension, base::Range range, const std::string& exa
   return form;
 }
 
-Form integer(base::Range range, const std::string& example) {
-  Form form = number(base::Dimension::none, range, example);
-  form.kind = Form::Kind::integer;
+ValueForm integer(base::Range range, const std::string& example) {
+  ValueForm form = number(base::Dimension::none, range, example);
+  form.kind = ValueForm::Kind::integer;
   return form;
 }
 
-Form boolean() {
-  Form form;
-  form.kind = Form::Kind::boolean;
+ValueForm boolean() {
+  ValueForm form;
+  form.kind = ValueForm::Kind::boolean;
   form.example = "true";
   return form;
 }
 
-Form text(const std::string& what, const std::string& example) {
-  Form form;
-  form.kind = Form::Kind::text;
+ValueForm text(const std::string& what, const std::string& example) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::text;
   form.what = what;
   form.example = example;
   return form;
 }
 
-Form choice(std::vector<std::string> names) {
-  Form form;
-  form.kind = Form::Kind::choice;
+ValueForm choice(std::vector<std::string> names) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::choice;
   form.example = names.front();
   form.names = std::move(names);
   return form;
 }
 
-Form list(Form item, int min_items, int max_items) {
-  Form form;
-  form.kind = Form::Kind::list;
+ValueForm list(ValueForm item, int min_items, int max_items) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::list;
   form.forms.push_back(std::move(item));
   form.min_items = min_items;
   form.max_items = max_items;
   return form;
 }
 
-Form map(std::vector<Key> keys) {
-  Form form;
-  form.kind = Form::Kind::map;
+ValueForm map(std::vector<Key> keys) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::map;
   form.keys = std::move(keys);
   return form;
 }
 
-Form dictionary(Form item, int min_items, int max_items) {
-  Form form = list(std::move(item), min_items, max_items);
-  form.kind = Form::Kind::dictionary;
+ValueForm dictionary(ValueForm item, int min_items, int max_items) {
+  ValueForm form = list(std::move(item), min_items, max_items);
+  form.kind = ValueForm::Kind::dictionary;
   return form;
 }
 
-Form either(std::vector<Form> forms) {
-  Form form;
-  form.kind = Form::Kind::either;
+ValueForm either(std::vector<ValueForm> forms) {
+  ValueForm form;
+  form.kind = ValueForm::Kind::either;
   form.forms = std::move(forms);
   return form;
 }
 
-Key required(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, true, {}, {}}; }
+Key required(const std::string& name, ValueForm form, const std::string& doc) { return {name, std::move(form), doc, true, {}, {}}; }
 
-Key absent(const std::string& name, Form form, const std::string& doc) { return {name, std::move(form), doc, false, {}, {}}; }
+Key absent(const std::string& name, ValueForm form, const std::string& doc) { return {name, std::move(form), doc, false, {}, {}}; }
 
 Key since(Stage stage, Key key) {
   key.stage = stage;
   return key;
 }
 
-bool is_scalar(const Form& form) {
-  using enum Form::Kind;
+bool is_scalar(const ValueForm& form) {
+  using enum ValueForm::Kind;
   return form.kind == number || form.kind == integer || form.kind == boolean || form.kind == text || form.kind == choice;
 }
 

@@ -16,7 +16,7 @@ namespace tofray::model {
 struct Key;
 
 /// What one value may be.
-struct Form {
+struct ValueForm {
   enum class Kind {
     number,  ///< with the unit of `dimension`
     integer,
@@ -37,7 +37,7 @@ struct Form {
   double low = 0, high = 0;  ///< SI, both included
   std::string example;       ///< number: as one writes it
   std::vector<std::string> names;
-  std::vector<Form> forms;
+  std::vector<ValueForm> forms;
   std::vector<Key> keys;
   std::vector<std::string> exactly_one;  ///< map: exactly one of these keys has to be there
   std::vector<std::string> at_most_one;  ///< map: not two of these
@@ -51,7 +51,7 @@ struct Form {
 /// A key of a map.
 struct Key {
   std::string name;
-  Form form;
+  ValueForm form;
   std::string doc;  ///< one line
   bool required = false;
   std::string fallback;             ///< what holds where the key is absent, as one writes it; empty: the key's line says it
@@ -60,30 +60,30 @@ struct Key {
 };
 
 // The forms are written in this shorthand.
-Form number(base::Dimension dimension, base::Range range, const std::string& example);
-Form integer(base::Range range, const std::string& example);
-Form boolean();
-Form text(const std::string& what, const std::string& example);
-Form choice(std::vector<std::string> names);
-Form list(Form item, int min_items, int max_items);
-Form map(std::vector<Key> keys);
-Form dictionary(Form item, int min_items, int max_items);
-Form either(std::vector<Form> forms);
+ValueForm number(base::Dimension dimension, base::Range range, const std::string& example);
+ValueForm integer(base::Range range, const std::string& example);
+ValueForm boolean();
+ValueForm text(const std::string& what, const std::string& example);
+ValueForm choice(std::vector<std::string> names);
+ValueForm list(ValueForm item, int min_items, int max_items);
+ValueForm map(std::vector<Key> keys);
+ValueForm dictionary(ValueForm item, int min_items, int max_items);
+ValueForm either(std::vector<ValueForm> forms);
 
-Key required(const std::string& name, Form form, const std::string& doc);
-Key absent(const std::string& name, Form form, const std::string& doc);
+Key required(const std::string& name, ValueForm form, const std::string& doc);
+Key absent(const std::string& name, ValueForm form, const std::string& doc);
 
 /// The first stage of a frame that looks at it. @return the key
 Key since(Stage stage, Key key);
 
 /// Whether it is written as one word or number.
-bool is_scalar(const Form& form);
+bool is_scalar(const ValueForm& form);
 
 /// A whole file kind.
 struct FileForm {
   std::string kind;  ///< "scene", "camera"
   std::string title;
-  Form root;
+  ValueForm root;
   /// Numbers may be written {value: …, source: …} or {value: …, assumed: …}, and every map may say source, assumed and note.
   bool provenance = false;
 };

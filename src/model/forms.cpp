@@ -11,14 +11,14 @@ namespace tofray::model {
 
 namespace {
 
-using Kind = Form::Kind;
+using Kind = ValueForm::Kind;
 
 bool has(const std::vector<int>& kinds, int kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); }
 
 /// A value as one writes it, in the example's unit.
-std::string written(double value, const Form& form) { return base::quantity_text(value, form.example); }
+std::string written(double value, const ValueForm& form) { return base::quantity_text(value, form.example); }
 
-std::string written(const Vec3& v, const Form& form) {
+std::string written(const Vec3& v, const ValueForm& form) {
   return "[" + written(v[0], form) + ", " + written(v[1], form) + ", " + written(v[2], form) + "]";
 }
 
@@ -44,9 +44,9 @@ std::string fallback(const Row& row, const Table& table) {
 }
 
 /// What stands under the row's key.
-Form value_form(const Row& row, const Table& table) {
+ValueForm value_form(const Row& row, const Table& table) {
   const Slot slot = slot_of(row, table.fresh);
-  Form form = row.form;
+  ValueForm form = row.form;
   if (const auto* record = std::get_if<RecordSlot>(&slot)) return form_of(record->table());
   if (const auto* records = std::get_if<ListSlot>(&slot)) {
     form.forms[0] = form_of(records->table());
@@ -119,8 +119,8 @@ class Keys {
 };
 
 /// A map of the keys, with what they exclude: numbers and their file, ways to say one number.
-Form map_of(const Table& table, int kind) {
-  Form form = map(keys_of(table, kind));
+ValueForm map_of(const Table& table, int kind) {
+  ValueForm form = map(keys_of(table, kind));
   form.keys.insert(form.keys.end(), table.more.begin(), table.more.end());
   form.at_most_one = table.at_most_one, form.exactly_one = table.exactly_one, form.meant = table.meant;
   const auto there = [&](const Row& row) {
@@ -138,10 +138,10 @@ Form map_of(const Table& table, int kind) {
 
 std::vector<Key> keys_of(const Table& table, int kind) { return Keys(table, kind).at(""); }
 
-Form form_of(const Table& table) {
+ValueForm form_of(const Table& table) {
   if (table.tag.empty()) return map_of(table, all_kinds);
   const auto kind = std::find_if(table.rows.begin(), table.rows.end(), [&](const Row& row) { return row.key == table.tag; });
-  Form form;
+  ValueForm form;
   form.kind = Kind::tagged;
   form.tag = table.tag;
   form.names = kind->form.names;

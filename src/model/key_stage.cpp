@@ -28,8 +28,8 @@ class Walk {
   explicit Walk(std::vector<std::string> parts) : parts_(std::move(parts)) {}
 
   /// @param stage  of what the form is a part of
-  void at(const Form& form, std::size_t next, Stage stage) {
-    using enum Form::Kind;
+  void at(const ValueForm& form, std::size_t next, Stage stage) {
+    using enum ValueForm::Kind;
     if (next == parts_.size()) return found(form, stage);
     const std::string& part = parts_[next];
     switch (form.kind) {
@@ -43,14 +43,14 @@ class Walk {
       case dictionary: return at(form.forms[0], next + 1, stage);
       case tagged:
         if (part == form.tag && next + 1 == parts_.size()) return found(form, stage);
-        for (const Form& one : form.forms) at(one, next, stage);
+        for (const ValueForm& one : form.forms) at(one, next, stage);
         return;
       case variant:
         for (std::size_t i = 0; i < form.names.size(); ++i)
           if (form.names[i] == part) at(form.forms[i], next + 1, stage);
         return;
       case either:
-        for (const Form& one : form.forms) at(one, next, stage);
+        for (const ValueForm& one : form.forms) at(one, next, stage);
         return;
       default: return;
     }
@@ -58,7 +58,7 @@ class Walk {
   [[nodiscard]] const std::optional<KnownKey>& result() const { return result_; }
 
  private:
-  void found(const Form& form, Stage stage) {
+  void found(const ValueForm& form, Stage stage) {
     if (result_)
       result_->stage = std::min(result_->stage, stage);
     else

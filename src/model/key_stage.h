@@ -11,8 +11,8 @@ namespace tofray::model {
 
 /// A key that the tables have.
 struct KnownKey {
-  const Form* form = nullptr;  ///< of its value; where several kinds have such a key, of the first of them
-  Stage stage = Stage::trace;  ///< the first stage of a frame that looks at it; where kinds differ, the earliest
+  const ValueForm* form = nullptr;  ///< of its value; where several kinds have such a key, of the first of them
+  Stage stage = Stage::trace;       ///< the first stage of a frame that looks at it; where kinds differ, the earliest
 };
 
 /// @param file  scene_form() or camera_form()

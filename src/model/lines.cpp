@@ -10,16 +10,16 @@ namespace tofray::model {
 
 namespace {
 
-using Kind = Form::Kind;
+using Kind = ValueForm::Kind;
 
 std::string as_code(const std::string& text) { return "`" + text + "`"; }
 
-std::string range(const Form& form) {
+std::string range(const ValueForm& form) {
   return base::quantity_text(form.low, form.example) + " to " + base::quantity_text(form.high, form.example);
 }
 
 /// What may stand there, in words.
-std::string value_text(const Form& form) {
+std::string value_text(const ValueForm& form) {
   switch (form.kind) {
     case Kind::number:
     case Kind::integer: return as_code(form.example) + ", " + range(form);
@@ -37,7 +37,7 @@ std::string value_text(const Form& form) {
     }
     case Kind::either: {
       std::vector<std::string> all;
-      for (const Form& one : form.forms) all.push_back(value_text(one));
+      for (const ValueForm& one : form.forms) all.push_back(value_text(one));
       return base::listed(all, "or a");
     }
     case Kind::map:
@@ -54,7 +54,7 @@ class Lines {
   std::vector<Line> all;
 
   /// @param kind   that the keys belong to, for their lines; may be empty
-  void keys(const Form& form, const std::string& path, const std::string& kind) {
+  void keys(const ValueForm& form, const std::string& path, const std::string& kind) {
     const std::string note = kind.empty() ? "" : kind + ": ";
     for (const Key& key : form.keys) {
       const std::string here = path.empty() ? key.name : path + "." + key.name;
@@ -65,15 +65,15 @@ class Lines {
   }
 
  private:
-  static bool has_values(const Form& form) {
-    const auto structs = [](const Form& one) {
+  static bool has_values(const ValueForm& form) {
+    const auto structs = [](const ValueForm& one) {
       return one.kind == Kind::map || one.kind == Kind::tagged || (one.kind == Kind::list && one.forms[0].kind == Kind::map);
     };
     if (form.kind == Kind::either) return !std::all_of(form.forms.begin(), form.forms.end(), structs);
     return is_scalar(form) || form.kind == Kind::list;
   }
 
-  void below(const Form& form, const std::string& path, const Key& key) {
+  void below(const ValueForm& form, const std::string& path, const Key& key) {
     switch (form.kind) {
       case Kind::map: return keys(form, path, "");
       case Kind::list:
@@ -97,7 +97,7 @@ class Lines {
         for (std::size_t i = 0; i < form.forms.size(); ++i) keys(form.forms[i], path + "." + form.names[i], "");
         return;
       case Kind::either:
-        for (const Form& one : form.forms) below(one, path, key);
+        for (const ValueForm& one : form.forms) below(one, path, key);
         return;
       default: return;
     }

@@ -12,13 +12,15 @@ namespace tofray::model {
 namespace {
 
 /// The numbers that a form is made of; none where it has none.
-const Form* numbers_of(const Form& form) {
-  using enum Form::Kind;
+const ValueForm* numbers_of(const ValueForm& form) {
+  using enum ValueForm::Kind;
   if (form.kind == number || form.kind == integer) return &form;
   return form.kind == list || form.kind == either ? numbers_of(form.forms[0]) : nullptr;
 }
 
-MemberNumbers numbers_said(const std::string& name, const Form& form) { return {name, base::si_unit(form.dimension), form.low, form.high}; }
+MemberNumbers numbers_said(const std::string& name, const ValueForm& form) {
+  return {name, base::si_unit(form.dimension), form.low, form.high};
+}
 
 class RowsByMember {
  public:
@@ -46,7 +48,7 @@ class RowsByMember {
     for (const Row& other : table.rows)
       if (row.tag != nullptr && other.slot == row.tag) one.tag = other.name();
     if (row.x_key.empty()) {
-      if (const Form* const form = numbers_of(row.form)) one.numbers.push_back(numbers_said("", *form));
+      if (const ValueForm* const form = numbers_of(row.form)) one.numbers.push_back(numbers_said("", *form));
     } else if (row.second.empty()) {
       one.numbers = {numbers_said(row.x_key, row.x), numbers_said(row.y_key, row.y)};
     } else {  // positions are a member of their own, and values another one

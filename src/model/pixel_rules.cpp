@@ -76,7 +76,7 @@ void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complain
                           number_text(charge[i]) + " e; expected more than before, by at most 10 e for each electron");
   }
   if (charge.back() < 1) return complain("the nonlinearity ends below 1 e", "got " + number_text(charge.back()) + " e");
-  // What no line of the kernels' table can follow would be gone without a word.                           [theory: eq. 3.18]
+  // What no line of the kernels' table can follow would be gone without a word.                       [theory: nonlinearity]
   const double end = std::min(charge.back(), pixel.full_well_e), cell = end / base::read_cells;
   for (std::size_t i = 1; i < charge.size() && charge[i - 1] < end; ++i)
     if (charge[i] - charge[i - 1] < cell * (1 - 1e-9))
@@ -110,7 +110,7 @@ bool phases_are_sound(const Waveform& waveform, const std::vector<double>& sampl
 }
 
 /// Of a measured correlation, beside the odd ones. A gate that is open for half the period has none: what a pixel shows of them, this model has
-/// not.                                                                                                   [theory: eq. 3.23]
+/// not.                                                                                             [theory: even-harmonics]
 double even_harmonics_of(const Waveform& waveform) {
   const std::vector<double>& measured = waveform.correlation;
   if (waveform.sample_phases_rad.empty() && measured.size() % 2 == 0) return base::even_share(measured);

@@ -25,8 +25,8 @@ struct Number {
   const char* example;
   bool bare = false;  ///< also where it has a unit, one may leave the unit away (SI)
 };
-Form form_of(const Number& number);
-Form whole_number(const Number& number);
+ValueForm form_of(const Number& number);
+ValueForm whole_number(const Number& number);
 
 enum class Presence {
   required,
@@ -39,7 +39,7 @@ struct Row {
   std::string member;  ///< in code, with its struct: "Pixel::read_noise_e"
   std::string second;  ///< of a curve in two members: the one of its values
   Slot (*slot)(void* record) = nullptr;
-  Form form;  ///< of what the file says
+  ValueForm form;  ///< of what the file says
   std::string doc;
   Presence presence = Presence::optional;
   bool in_meta = true;
@@ -49,10 +49,10 @@ struct Row {
   bool scales_lengths = false;           ///< all lengths of the struct are multiplied by it
   std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
   std::optional<Stage> stage;  ///< the first stage of a frame that looks at it; none: as what it is a part of, in the end the first of all
-  Form otherwise;              ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
+  ValueForm otherwise;         ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
   // of a curve
   std::string x_key, y_key;
-  Form x, y;
+  ValueForm x, y;
   // where the struct has several kinds: the member that says which, and the ones that this row belongs to
   Slot (*tag)(void* record) = nullptr;
   std::vector<int> kinds;
@@ -187,7 +187,7 @@ struct Rows {
   Rows not_in_meta() && { return std::move(*this).with(&Row::in_meta, false); }
   Rows in_meta_if_set() && { return std::move(*this).with(&Row::meta_if_set, true); }
   Rows in_place_of(std::vector<std::string> members) && { return std::move(*this).with(&Row::in_place_of, members); }
-  Rows or_else(Form form) && { return std::move(*this).with(&Row::otherwise, form); }
+  Rows or_else(ValueForm form) && { return std::move(*this).with(&Row::otherwise, form); }
   /// Its numbers may also be in a text file.
   Rows or_file(const char* example) && { return std::move(*this).with(&Row::file, std::string(example)); }
   Rows scales_lengths() && { return std::move(*this).with(&Row::scales_lengths, true); }
@@ -215,7 +215,7 @@ struct Rows {
 
 namespace detail {
 template <auto M>
-Rows<1> row(const char* key, Form form, const char* doc) {
+Rows<1> row(const char* key, ValueForm form, const char* doc) {
   Row one;
   one.key = key, one.member = member_text<M>(), one.slot = &slot_at<M>, one.form = std::move(form), one.doc = doc;
   return {{std::move(one)}, {}, {}, {}};
@@ -226,7 +226,7 @@ Rows<1> row(const char* key, Form form, const char* doc) {
 template <auto M>
 Rows<1> number(const char* key, const Number& number, const char* doc) {
   using Member = typename detail::Of<decltype(M)>::Member;
-  const Form one = form_of(number);
+  const ValueForm one = form_of(number);
   if constexpr (std::is_integral_v<Member>) {
     return detail::row<M>(key, whole_number(number), doc);
   } else if constexpr (std::is_same_v<Member, double> || std::is_same_v<Member, std::optional<double>>) {
@@ -303,8 +303,8 @@ Rows<1> records(const char* key, int least, int most, const char* doc) {
 /// One of several structs, by name.
 template <auto M>
 Rows<1> one_of(std::vector<std::string> names) {
-  Form form;
-  form.kind = Form::Kind::variant, form.names = std::move(names);
+  ValueForm form;
+  form.kind = ValueForm::Kind::variant, form.names = std::move(names);
   return detail::row<M>("", std::move(form), "");
 }
 

@@ -72,7 +72,7 @@ namespace {
 
 /// Rotations as other software writes them: the reader makes quaternions of them.
 std::vector<Key> matrix_and_euler(int columns, const char* matrix) {
-  const Form entry = form_of(component), turn = form_of(Number{angle, {-100, 100}, "30 deg"});
+  const ValueForm entry = form_of(component), turn = form_of(Number{angle, {-100, 100}, "30 deg"});
   std::vector<Key> angles;
   for (const auto& [name, doc] : {std::pair{"roll", "rotation about the fixed axis x, as rpy in URDF"},
                                   {"pitch", "rotation about the fixed axis y, after roll"},
@@ -94,7 +94,7 @@ std::vector<Key> axes_of_cameras() {
 }
 
 /// Poses at times out of a file.
-Form keyframe_file(std::vector<Key> more) {
+ValueForm keyframe_file(std::vector<Key> more) {
   std::vector<Key> keys{required("file", text("a file", "poses.csv"),
                                  "file with a pose per line, t x y z qx qy qz qw or as its header says, beside the scene or below"),
                         absent("time_unit", choice({"s", "ms", "us", "ns"}), "unit of the file's times; as its header says, else s"),
@@ -220,8 +220,8 @@ const Table& table_of<Pose>() {
 
 namespace {
 /// Where a camera is on what carries it.
-Form mount_form() {
-  Form form = form_of(table_of<Pose>());
+ValueForm mount_form() {
+  ValueForm form = form_of(table_of<Pose>());
   std::erase_if(form.keys, [](const Key& key) { return key.name == "look_at" || key.name == "up"; });
   std::erase(form.at_most_one, "look_at");
   for (Key& key : form.keys) {
@@ -323,14 +323,14 @@ const Table& table_of<Scene>() {
 namespace {
 
 /// An entry has one of the shapes' names, and under it the shape's keys and the object's.
-Form objects_form() {
+ValueForm objects_form() {
   const Table& object = table_of<Object>();
   const Row& shape =
-      *std::find_if(object.rows.begin(), object.rows.end(), [](const Row& row) { return row.form.kind == Form::Kind::variant; });
-  Form form = shape.form;
+      *std::find_if(object.rows.begin(), object.rows.end(), [](const Row& row) { return row.form.kind == ValueForm::Kind::variant; });
+  ValueForm form = shape.form;
   const Slot shapes = slot_of(shape, object.fresh);
   for (const auto& table : std::get<VariantSlot>(shapes).tables) {
-    Form one = form_of(table());
+    ValueForm one = form_of(table());
     one.keys.push_back(
         absent("reflectivity", form_of(Number{fraction, share, "0.5"}), "reflectivity of a Lambertian surface, in place of `material`"));
     one.keys.push_back(absent("material", either({text("the name of a material", "paper"), form_of(table_of<Material>())}),

@@ -6,20 +6,20 @@
 
 namespace tofray::model {
 
-Form form_of(const Number& number) {
-  Form form = model::number(number.dimension, number.range, number.example);
+ValueForm form_of(const Number& number) {
+  ValueForm form = model::number(number.dimension, number.range, number.example);
   form.bare = form.bare || number.bare;
   return form;
 }
 
-Form whole_number(const Number& number) { return integer(number.range, number.example); }
+ValueForm whole_number(const Number& number) { return integer(number.range, number.example); }
 
 Rows<1> curve_row(Row row, const Axis& x, const Axis& y, Constant constant) {
   const auto most = static_cast<int>(base::limit::curve_points.value);
   row.x_key = x.key, row.y_key = y.key;
   row.x = form_of(x.number), row.y = form_of(y.number);
-  Form samples = map({required(x.key, list(row.x, 2, most), "where the values stand, ascending"),
-                      required(y.key, list(row.y, 2, most), "one for each " + row.x_key + "; a not-a-knot spline goes through them")});
+  ValueForm samples = map({required(x.key, list(row.x, 2, most), "where the values stand, ascending"),
+                           required(y.key, list(row.y, 2, most), "one for each " + row.x_key + "; a not-a-knot spline goes through them")});
   row.form = constant == Constant::allowed ? either({row.y, std::move(samples)}) : std::move(samples);
   row.form.max_items = most;
   Rows<1> out;

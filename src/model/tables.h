@@ -23,7 +23,7 @@ inline constexpr Number component{base::Dimension::none, {-1e6, 1e6}, "1"};
 const std::vector<std::string>& names_of_shapes();
 
 /// What files may say of a struct.
-Form form_of(const Table& table);
+ValueForm form_of(const Table& table);
 /// Its keys: all of them, or those of one kind.
 constexpr int all_kinds = -1;
 std::vector<Key> keys_of(const Table& table, int kind = all_kinds);

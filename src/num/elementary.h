@@ -9,13 +9,13 @@ namespace tofray::num {
 
 /// Whole turns taken off: t − round(t), in [−½, ½].
 template <class F>
-TOFRAY_FN F wrap_turns(F t) {
+TOFRAY_INLINE F wrap_turns(F t) {
   return t - round_even(t);
 }
 
 /// sin and cos of 2πt for an angle t in turns, |t| < 2^21. Fits on |t| <= 1/8: 3.2e-9 and 5.4e-11.
 template <class F>
-TOFRAY_FN void sincos_turns(F t, F& sine, F& cosine) {
+TOFRAY_INLINE void sincos_turns(F t, F& sine, F& cosine) {
   const F quarter = round_even(t * F(4.0f));
   const F r = fma(quarter, F(-0.25f), t);
   const F u = r * r;
@@ -32,7 +32,7 @@ TOFRAY_FN void sincos_turns(F t, F& sine, F& cosine) {
 
 /// atan(t)/t in turns, of t² in [0, 1]. Fit of atan: 1.5e-8.
 template <class F>
-TOFRAY_FN F atan_share(F u) {
+TOFRAY_INLINE F atan_share(F u) {
   F p = fma(u, F(0.000453568035f), F(-0.0025573778f));
   p = fma(u, p, F(0.00679452764f));
   p = fma(u, p, F(-0.0119434232f));
@@ -45,7 +45,7 @@ TOFRAY_FN F atan_share(F u) {
 
 /// Angle of the vector (x, y) in turns, in [−½, ½]; 0 for the zero vector.
 template <class F>
-TOFRAY_FN F atan2_turns(F y, F x) {
+TOFRAY_INLINE F atan2_turns(F y, F x) {
   const F ax = abs(x), ay = abs(y);
   const F longer = max(ax, ay), shorter = min(ax, ay);
   const F t = shorter / select(longer > F(0.0f), longer, F(1.0f));
@@ -58,7 +58,7 @@ TOFRAY_FN F atan2_turns(F y, F x) {
 /// 1/√x to 4e-7, where the root is at hand. By multiplications, because a processor's divider, which finds roots, too, is slow; a guess from the
 /// exponent and two steps of Newton's, whose numbers are a fit (1.8e-7 before rounding).
 template <class F>
-TOFRAY_FN F inverse_root(F x, F root) {
+TOFRAY_INLINE F inverse_root(F x, F root) {
   const F guess = from_bits(to_uint(Int<F>(0x5f375ee0) - to_signed(bits(x) >> 1)));
   const F nearer = guess * fnma(root, guess, F(2.0005984f));
   return nearer * fnma(root, nearer, F(2.0000002f));
@@ -66,7 +66,7 @@ TOFRAY_FN F inverse_root(F x, F root) {
 
 /// Natural logarithm of a normal number > 0. Fit of log(1+f) on [√½−1, √2−1]: 3.1e-8.
 template <class F>
-TOFRAY_FN F log(F a) {
+TOFRAY_INLINE F log(F a) {
   // a = m·2^e with m in [√½, √2)
   const Int<F> shifted = to_signed((bits(a) + Uint<F>(0x3f800000u - 0x3f3504f3u)) >> 23) - Int<F>(127);
   const F f = from_bits(bits(a) + (to_uint(Int<F>(0) - shifted) << 23)) - F(1.0f);
@@ -84,7 +84,7 @@ TOFRAY_FN F log(F a) {
 
 /// 2^a; 0 below −126, the largest power above 127. Fit on [−½, ½]: 2.0e-9.
 template <class F>
-TOFRAY_FN F exp2(F a) {
+TOFRAY_INLINE F exp2(F a) {
   const F held = min(max(a, F(-126.0f)), F(127.0f));
   const F whole = round_even(held);
   const F r = held - whole;
@@ -99,13 +99,13 @@ TOFRAY_FN F exp2(F a) {
 }
 
 template <class F>
-TOFRAY_FN F exp(F a) {
+TOFRAY_INLINE F exp(F a) {
   return exp2(a * F(1.44269502f));
 }
 
 /// base^exponent for base in [0, 1] and exponent >= 0 (0^0 = 1).
 template <class F>
-TOFRAY_FN F power(F base, F exponent) {
+TOFRAY_INLINE F power(F base, F exponent) {
   const F held = max(base, F(1.1754944e-38f));
   return select(exponent == F(0.0f), F(1.0f), select(base > F(0.0f), exp2(exponent * (log(held) * F(1.44269502f))), F(0.0f)));
 }

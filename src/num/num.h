@@ -12,15 +12,17 @@
 /// file; nothing else is needed to add a machine. Every function gives the same bits on every machine: IEEE single precision,
 /// rounded to nearest, subnormals kept; min and max are comparisons (the second argument where one is NaN).
 ///
-/// TOFRAY_FN is written out where it is called. TOFRAY_APART, for what is long and called in several places, is not on a processor. It is on a
-/// GPU, which puts a pixel's numbers into memory to call anything.
+/// TOFRAY_INLINE: a function that is inlined wherever it is called; TOFRAY_LAMBDA: likewise a lambda, after its parameters. TOFRAY_NOINLINE, for
+/// what is long and called in several places, is a function of its own on a processor. On a GPU it is inlined, too, since a call there puts a
+/// pixel's numbers into memory.
+#define TOFRAY_LAMBDA __attribute__((always_inline))
 #if defined(__CUDACC__)
-#define TOFRAY_FN __host__ __device__ __forceinline__
-#define TOFRAY_APART __host__ __device__ __forceinline__ static
+#define TOFRAY_INLINE __host__ __device__ __forceinline__
+#define TOFRAY_NOINLINE __host__ __device__ __forceinline__ static
 #define TOFRAY_CONSTANT __device__ constexpr
 #else
-#define TOFRAY_FN __attribute__((always_inline)) inline
-#define TOFRAY_APART __attribute__((noinline)) static
+#define TOFRAY_INLINE __attribute__((always_inline)) inline
+#define TOFRAY_NOINLINE __attribute__((noinline)) static
 #define TOFRAY_CONSTANT inline constexpr
 #endif
 
@@ -54,9 +56,9 @@ using Eight = typename Traits<F>::Eight;
 template <class F>
 using Square = typename Traits<F>::Square;
 
-TOFRAY_FN float single(double a) { return static_cast<float>(a); }
+TOFRAY_INLINE float single(double a) { return static_cast<float>(a); }
 /// a·b + c, rounded once.
-TOFRAY_FN float fma(float a, float b, float c) {
+TOFRAY_INLINE float fma(float a, float b, float c) {
 #if defined(__CUDA_ARCH__)
   return __fmaf_rn(a, b, c);
 #else
@@ -64,18 +66,18 @@ TOFRAY_FN float fma(float a, float b, float c) {
 #endif
 }
 /// c − a·b, rounded once.
-TOFRAY_FN float fms(float a, float b, float c) { return fma(a, b, -c); }   ///< a·b − c
-TOFRAY_FN float fnma(float a, float b, float c) { return fma(-a, b, c); }  ///< c − a·b
-TOFRAY_FN float sqrt(float a) {
+TOFRAY_INLINE float fms(float a, float b, float c) { return fma(a, b, -c); }   ///< a·b − c
+TOFRAY_INLINE float fnma(float a, float b, float c) { return fma(-a, b, c); }  ///< c − a·b
+TOFRAY_INLINE float sqrt(float a) {
 #if defined(__CUDA_ARCH__)
   return __fsqrt_rn(a);
 #else
   return __builtin_sqrtf(a);
 #endif
 }
-TOFRAY_FN float min(float a, float b) { return a < b ? a : b; }
-TOFRAY_FN float max(float a, float b) { return a > b ? a : b; }
-TOFRAY_FN float floor(float a) {
+TOFRAY_INLINE float min(float a, float b) { return a < b ? a : b; }
+TOFRAY_INLINE float max(float a, float b) { return a > b ? a : b; }
+TOFRAY_INLINE float floor(float a) {
 #if defined(__CUDA_ARCH__)
   return ::floorf(a);
 #else
@@ -83,7 +85,7 @@ TOFRAY_FN float floor(float a) {
 #endif
 }
 /// To the nearest integer, halves to the even one.
-TOFRAY_FN float round_even(float a) {
+TOFRAY_INLINE float round_even(float a) {
 #if defined(__CUDA_ARCH__)
   return ::rintf(a);
 #else
@@ -91,39 +93,39 @@ TOFRAY_FN float round_even(float a) {
 #endif
 }
 
-TOFRAY_FN std::uint32_t bits(float a) {
+TOFRAY_INLINE std::uint32_t bits(float a) {
 #if defined(__CUDA_ARCH__)
   return __float_as_uint(a);
 #else
   return __builtin_bit_cast(std::uint32_t, a);
 #endif
 }
-TOFRAY_FN float from_bits(std::uint32_t a) {
+TOFRAY_INLINE float from_bits(std::uint32_t a) {
 #if defined(__CUDA_ARCH__)
   return __uint_as_float(a);
 #else
   return __builtin_bit_cast(float, a);
 #endif
 }
-TOFRAY_FN float abs(float a) { return from_bits(bits(a) & 0x7fffffffu); }
+TOFRAY_INLINE float abs(float a) { return from_bits(bits(a) & 0x7fffffffu); }
 /// The magnitude of a with the sign of b.
-TOFRAY_FN float copy_sign(float a, float b) { return from_bits((bits(a) & 0x7fffffffu) | (bits(b) & 0x80000000u)); }
+TOFRAY_INLINE float copy_sign(float a, float b) { return from_bits((bits(a) & 0x7fffffffu) | (bits(b) & 0x80000000u)); }
 
-TOFRAY_FN float select(bool m, float a, float b) { return m ? a : b; }
-TOFRAY_FN std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
-TOFRAY_FN std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
-TOFRAY_FN bool any(bool m) { return m; }
-TOFRAY_FN bool all(bool m) { return m; }
-TOFRAY_FN std::uint32_t lanes_of(bool m) { return m ? 1u : 0u; }  ///< a bit for each lane
+TOFRAY_INLINE float select(bool m, float a, float b) { return m ? a : b; }
+TOFRAY_INLINE std::int32_t select(bool m, std::int32_t a, std::int32_t b) { return m ? a : b; }
+TOFRAY_INLINE std::uint32_t select(bool m, std::uint32_t a, std::uint32_t b) { return m ? a : b; }
+TOFRAY_INLINE bool any(bool m) { return m; }
+TOFRAY_INLINE bool all(bool m) { return m; }
+TOFRAY_INLINE std::uint32_t lanes_of(bool m) { return m ? 1u : 0u; }  ///< a bit for each lane
 
 /// Toward zero. The argument must fit: machines differ beyond.
-TOFRAY_FN std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
-TOFRAY_FN float to_float(std::int32_t a) { return static_cast<float>(a); }
-TOFRAY_FN std::uint32_t to_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
-TOFRAY_FN std::int32_t to_signed(std::uint32_t a) { return static_cast<std::int32_t>(a); }
+TOFRAY_INLINE std::int32_t to_int(float a) { return static_cast<std::int32_t>(a); }
+TOFRAY_INLINE float to_float(std::int32_t a) { return static_cast<float>(a); }
+TOFRAY_INLINE std::uint32_t to_uint(std::int32_t a) { return static_cast<std::uint32_t>(a); }
+TOFRAY_INLINE std::int32_t to_signed(std::uint32_t a) { return static_cast<std::int32_t>(a); }
 
 /// Both halves of a 32 × 32 bit product.
-TOFRAY_FN void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
+TOFRAY_INLINE void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& high, std::uint32_t& low) {
 #if defined(__CUDA_ARCH__)
   high = __umulhi(a, b);
   low = a * b;
@@ -135,66 +137,66 @@ TOFRAY_FN void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t& hi
 }
 
 /// table[index], lane by lane.
-TOFRAY_FN float gather(const float* table, std::int32_t index) { return table[index]; }
-TOFRAY_FN std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }
+TOFRAY_INLINE float gather(const float* table, std::int32_t index) { return table[index]; }
+TOFRAY_INLINE std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }
 
 /// table[2·index] and table[2·index + 1]; the table is aligned to 8 bytes.
-TOFRAY_FN void gather_pair(const float* table, std::int32_t index, float& first, float& second) {
+TOFRAY_INLINE void gather_pair(const float* table, std::int32_t index, float& first, float& second) {
   first = table[2 * index], second = table[2 * index + 1];
 }
 
 /// The value of the first lane of those in a mask, of which there is one at least.
-TOFRAY_FN std::int32_t first_of(bool, std::int32_t a) { return a; }
+TOFRAY_INLINE std::int32_t first_of(bool, std::int32_t a) { return a; }
 /// Smallest and largest of all lanes.
-TOFRAY_FN float lowest(float a) { return a; }
-TOFRAY_FN float highest(float a) { return a; }
+TOFRAY_INLINE float lowest(float a) { return a; }
+TOFRAY_INLINE float highest(float a) { return a; }
 
 /// What a number type knows of memory and of its lanes.
 template <class F>
 struct Memory;
 template <>
 struct Memory<float> {
-  TOFRAY_FN static float load(const float* from, int) { return *from; }
-  TOFRAY_FN static std::int32_t load_int(const std::int32_t* from, int) { return *from; }
-  TOFRAY_FN static std::int32_t lane_index() { return 0; }
+  TOFRAY_INLINE static float load(const float* from, int) { return *from; }
+  TOFRAY_INLINE static std::int32_t load_int(const std::int32_t* from, int) { return *from; }
+  TOFRAY_INLINE static std::int32_t lane_index() { return 0; }
 };
 
 /// The first n lanes to or from memory; the others read as 0 and are not written.
 template <class F>
-TOFRAY_FN F load(const float* from, int n) {
+TOFRAY_INLINE F load(const float* from, int n) {
   return Memory<F>::load(from, n);
 }
 template <class F>
-TOFRAY_FN Int<F> load_int(const std::int32_t* from, int n) {
+TOFRAY_INLINE Int<F> load_int(const std::int32_t* from, int n) {
   return Memory<F>::load_int(from, n);
 }
 /// 0, 1, 2 … lanes−1.
 template <class F>
-TOFRAY_FN Int<F> lane_index() {
+TOFRAY_INLINE Int<F> lane_index() {
   return Memory<F>::lane_index();
 }
 /// Lanes in rows of four, one row of memory below the other.
 template <class F>
-TOFRAY_FN F load_square(const float* from, int row) {
+TOFRAY_INLINE F load_square(const float* from, int row) {
   return Memory<F>::load_square(from, row);
 }
-TOFRAY_FN void store_square(float* to, int, float a) { *to = a; }
-TOFRAY_FN void store(float* to, float a, int) { *to = a; }
-TOFRAY_FN void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
-TOFRAY_FN void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
-TOFRAY_FN void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+TOFRAY_INLINE void store_square(float* to, int, float a) { *to = a; }
+TOFRAY_INLINE void store(float* to, float a, int) { *to = a; }
+TOFRAY_INLINE void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
+TOFRAY_INLINE void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
+TOFRAY_INLINE void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
 
 /// Says early that n values will be read, or written, from table[first] on, if there is a table: for the processor's types, which wait for
 /// memory.
 template <class F, bool to = false, class T>
-TOFRAY_FN void fetch(const T* table, std::int32_t first, int n) {
+TOFRAY_INLINE void fetch(const T* table, std::int32_t first, int n) {
   constexpr int pixels_at_once = lanes<F>, line = 64 / sizeof(T);
   if constexpr (pixels_at_once > 1) {
     for (int i = 0; table != nullptr && i < n; i += line) __builtin_prefetch(table + first + i, to ? 1 : 0);
   }
 }
 template <class F, class T>
-TOFRAY_FN void fetch_to(const T* table, std::int32_t first, int n) {
+TOFRAY_INLINE void fetch_to(const T* table, std::int32_t first, int n) {
   fetch<F, true>(table, first, n);
 }
 
@@ -203,15 +205,15 @@ TOFRAY_FN void fetch_to(const T* table, std::int32_t first, int n) {
 /// (Those of a float are plain stores: the name has to stand where no type has its own.)
 template <class F>
 inline constexpr bool can_store_past = false;
-TOFRAY_FN void store_past(float* to, float a) { *to = a; }
-TOFRAY_FN void store_past(std::uint16_t* to, std::int32_t a) { *to = static_cast<std::uint16_t>(a); }
+TOFRAY_INLINE void store_past(float* to, float a) { *to = a; }
+TOFRAY_INLINE void store_past(std::uint16_t* to, std::int32_t a) { *to = static_cast<std::uint16_t>(a); }
 template <class F>
-TOFRAY_FN void finish_stores() {
+TOFRAY_INLINE void finish_stores() {
   if constexpr (can_store_past<F>) Memory<F>::finish_stores();
 }
 /// x0 y0 x1 y1 …
-TOFRAY_FN void store2(float* to, float x, float y, int) { to[0] = x, to[1] = y; }
+TOFRAY_INLINE void store2(float* to, float x, float y, int) { to[0] = x, to[1] = y; }
 /// x0 y0 z0 x1 y1 z1 …
-TOFRAY_FN void store3(float* to, float x, float y, float z, int) { to[0] = x, to[1] = y, to[2] = z; }
+TOFRAY_INLINE void store3(float* to, float x, float y, float z, int) { to[0] = x, to[1] = y, to[2] = z; }
 
 }  // namespace tofray::num

@@ -17,7 +17,7 @@ struct RoundKeys {
   std::uint32_t k0[10], k1[10];
   bool operator==(const RoundKeys&) const = default;
 };
-TOFRAY_FN RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
+TOFRAY_INLINE RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
   RoundKeys keys{};
   for (std::uint32_t i = 0; i < 10; ++i) keys.k0[i] = k0 + i * 0x9E3779B9u, keys.k1[i] = k1 + i * 0xBB67AE85u;
   return keys;
@@ -25,7 +25,7 @@ TOFRAY_FN RoundKeys round_keys(std::uint32_t k0, std::uint32_t k1) {
 
 /// One block of four words for a counter (c0…c3) and a key. Only c0 differs from lane to lane.
 template <class F>
-TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, const RoundKeys& keys) {
+TOFRAY_INLINE Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std::uint32_t c3, const RoundKeys& keys) {
   constexpr std::uint32_t m0 = 0xD2511F53u, m1 = 0xCD9E8D57u;
   // As long as words are the same in every lane, so are their products: the first round's second one and the second round's first.
   std::uint32_t high, low;
@@ -46,13 +46,13 @@ TOFRAY_FN Random4<F> philox(Uint<F> c0, std::uint32_t c1, std::uint32_t c2, std:
 
 /// Uniform in (0, 1): the middle of one of 2^23 equal cells.
 template <class F>
-TOFRAY_FN F uniform(Uint<F> word) {
+TOFRAY_INLINE F uniform(Uint<F> word) {
   return fma(to_float(to_signed(word >> 9)), F(0x1p-23f), F(0x1p-24f));
 }
 
 /// −2·ln u for u = (n + 1)·2^−24, n the upper 24 bits of a word. Fit of −2·ln m on [1, 2): 2.9e-6, absolute, which is what a radius needs.
 template <class F>
-TOFRAY_FN F minus_two_log(Uint<F> word) {
+TOFRAY_INLINE F minus_two_log(Uint<F> word) {
   const Uint<F> u = bits(to_float(to_signed((word >> 8) + Uint<F>(1u))));
   const F octave = to_float(to_signed(u >> 23) - Int<F>(127 + 24));
   const F t = from_bits((u & Uint<F>(0x007fffffu)) | Uint<F>(0x3f800000u)) - F(1.0f);
@@ -67,7 +67,7 @@ TOFRAY_FN F minus_two_log(Uint<F> word) {
 /// Two independent standard normals from two words (Box and Muller 1958): radius from the upper 24 bits of one, angle from a half
 /// (the upper bit of the other) and a place in it (the rest). |z| <= 5.8.
 template <class F>
-TOFRAY_FN void normal_pair(Uint<F> radius_word, Uint<F> angle_word, F& first, F& second) {
+TOFRAY_INLINE void normal_pair(Uint<F> radius_word, Uint<F> angle_word, F& first, F& second) {
   const F radius = sqrt(minus_two_log<F>(radius_word));
   // r in [−1/4, 1/4) turns, and half a turn or none; fits of sine (3.3e-9) and cosine (4.7e-8)
   const F r = to_float(to_signed(angle_word << 1)) * F(0x1p-33f);

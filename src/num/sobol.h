@@ -4,15 +4,14 @@
 #include "num/num.h"
 
 /// Points that fill the unit square evenly, however many of them are taken: the first two coordinates of Sobol's sequence, scrambled as Owen
-/// (1995) has it. Each point depends on its number and on seeds alone.                                     [theory: eq. 7.9]
+/// (1995) has it. Each point depends on its number and on seeds alone.                                 [theory: sobol-pairs]
 namespace tofray::num {
 
 /// The bits of a word from its other end.
 template <class F>
-TOFRAY_FN Uint<F> reversed(Uint<F> a) {
-  const auto swapped = [](Uint<F> x, int n, std::uint32_t mask) __attribute__((always_inline)) {
-    return ((x >> n) & Uint<F>(mask)) | ((x & Uint<F>(mask)) << n);
-  };
+TOFRAY_INLINE Uint<F> reversed(Uint<F> a) {
+  const auto swapped = [](Uint<F> x, int n, std::uint32_t mask)
+                           TOFRAY_LAMBDA { return ((x >> n) & Uint<F>(mask)) | ((x & Uint<F>(mask)) << n); };
   a = swapped(a, 1, 0x55555555u), a = swapped(a, 2, 0x33333333u), a = swapped(a, 4, 0x0f0f0f0fu), a = swapped(a, 8, 0x00ff00ffu);
   return (a >> 16) | (a << 16);
 }
@@ -20,7 +19,7 @@ TOFRAY_FN Uint<F> reversed(Uint<F> a) {
 /// A random permutation in which each bit is turned over, or not, by what stands below it: of the reversed word, so that halves of the unit
 /// interval change places, then halves of those … (Laine and Karras 2011; Burley 2020).
 template <class F>
-TOFRAY_FN Uint<F> turned_over(Uint<F> a, Uint<F> seed) {
+TOFRAY_INLINE Uint<F> turned_over(Uint<F> a, Uint<F> seed) {
   a = a + seed;
   a = a ^ (a * Uint<F>(0x6c50b47cu));
   a = a ^ (a * Uint<F>(0xb82f1e52u));
@@ -31,28 +30,28 @@ TOFRAY_FN Uint<F> turned_over(Uint<F> a, Uint<F> seed) {
 
 /// Pascal's triangle, modulo 2, times the word's bits: the second of Sobol's coordinates is the first one of what comes of it.
 template <class F>
-TOFRAY_FN Uint<F> pascal(Uint<F> a) {
-  const auto added = [](Uint<F> x, int n, std::uint32_t mask) __attribute__((always_inline)) { return x ^ ((x >> n) & Uint<F>(mask)); };
+TOFRAY_INLINE Uint<F> pascal(Uint<F> a) {
+  const auto added = [](Uint<F> x, int n, std::uint32_t mask) TOFRAY_LAMBDA { return x ^ ((x >> n) & Uint<F>(mask)); };
   a = added(a, 1, 0x55555555u), a = added(a, 2, 0x33333333u), a = added(a, 4, 0x0f0f0f0fu), a = added(a, 8, 0x00ff00ffu);
   return added(a, 16, 0x0000ffffu);
 }
 
 /// In [0, 1): the upper 24 bits.
 template <class F>
-TOFRAY_FN F unit(Uint<F> word) {
+TOFRAY_INLINE F unit(Uint<F> word) {
   return to_float(to_signed(word >> 8)) * F(0x1p-24f);
 }
 
 /// Where in the sequence number `index` is once it is shuffled: numbers 0 to 2ⁿ − 1 stay together.
 template <class F>
-TOFRAY_FN Uint<F> shuffled(std::uint32_t index, Uint<F> seed) {
+TOFRAY_INLINE Uint<F> shuffled(std::uint32_t index, Uint<F> seed) {
   return reversed<F>(turned_over<F>(reversed<F>(Uint<F>(index)), seed));
 }
 
 /// @param shuffled  number of the point
 /// @param seeds     of its two coordinates
 template <class F>
-TOFRAY_FN void sobol_pair(Uint<F> shuffled, Uint<F> seed_u, Uint<F> seed_v, F& u, F& v) {
+TOFRAY_INLINE void sobol_pair(Uint<F> shuffled, Uint<F> seed_u, Uint<F> seed_v, F& u, F& v) {
   // A coordinate is the reversed word; scrambling starts at its upper end, which is the word's lower one.
   u = unit<F>(reversed<F>(turned_over<F>(shuffled, seed_u)));
   v = unit<F>(reversed<F>(turned_over<F>(pascal<F>(shuffled), seed_v)));

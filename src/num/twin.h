@@ -15,22 +15,22 @@ template <class Half>
 struct TwinInt {
   Int<Half> a, b;
   TwinInt() = default;
-  TOFRAY_FN TwinInt(Int<Half> low, Int<Half> high) : a(low), b(high) {}
-  TOFRAY_FN TwinInt(std::int32_t v) : a(v), b(v) {}
+  TOFRAY_INLINE TwinInt(Int<Half> low, Int<Half> high) : a(low), b(high) {}
+  TOFRAY_INLINE TwinInt(std::int32_t v) : a(v), b(v) {}
 };
 template <class Half>
 struct TwinUint {
   Uint<Half> a, b;
   TwinUint() = default;
-  TOFRAY_FN TwinUint(Uint<Half> low, Uint<Half> high) : a(low), b(high) {}
-  TOFRAY_FN TwinUint(std::uint32_t v) : a(v), b(v) {}
+  TOFRAY_INLINE TwinUint(Uint<Half> low, Uint<Half> high) : a(low), b(high) {}
+  TOFRAY_INLINE TwinUint(std::uint32_t v) : a(v), b(v) {}
 };
 template <class Half>
 struct Twin {
   Half a, b;
   Twin() = default;
-  TOFRAY_FN Twin(Half low, Half high) : a(low), b(high) {}
-  TOFRAY_FN Twin(float v) : a(v), b(v) {}
+  TOFRAY_INLINE Twin(Half low, Half high) : a(low), b(high) {}
+  TOFRAY_INLINE Twin(float v) : a(v), b(v) {}
 };
 
 template <class Half>
@@ -43,10 +43,10 @@ struct Traits<Twin<Half>> {
   static constexpr int lanes = 2 * num::lanes<Half>;
 };
 
-#define TOFRAY_TWIN_BINARY(type, result, op)              \
-  template <class H>                                      \
-  TOFRAY_FN result<H> operator op(type<H> x, type<H> y) { \
-    return {x.a op y.a, x.b op y.b};                      \
+#define TOFRAY_TWIN_BINARY(type, result, op)                  \
+  template <class H>                                          \
+  TOFRAY_INLINE result<H> operator op(type<H> x, type<H> y) { \
+    return {x.a op y.a, x.b op y.b};                          \
   }
 TOFRAY_TWIN_BINARY(Twin, Twin, +)
 TOFRAY_TWIN_BINARY(Twin, Twin, -)
@@ -77,25 +77,25 @@ TOFRAY_TWIN_BINARY(TwinUint, TwinUint, ^)
 #undef TOFRAY_TWIN_BINARY
 
 template <class H>
-TOFRAY_FN Twin<H> operator-(Twin<H> x) {
+TOFRAY_INLINE Twin<H> operator-(Twin<H> x) {
   return {-x.a, -x.b};
 }
 template <class H>
-TOFRAY_FN TwinMask<H> operator!(TwinMask<H> x) {
+TOFRAY_INLINE TwinMask<H> operator!(TwinMask<H> x) {
   return {!x.a, !x.b};
 }
 template <class H>
-TOFRAY_FN TwinUint<H> operator<<(TwinUint<H> x, int n) {
+TOFRAY_INLINE TwinUint<H> operator<<(TwinUint<H> x, int n) {
   return {x.a << n, x.b << n};
 }
 template <class H>
-TOFRAY_FN TwinUint<H> operator>>(TwinUint<H> x, int n) {
+TOFRAY_INLINE TwinUint<H> operator>>(TwinUint<H> x, int n) {
   return {x.a >> n, x.b >> n};
 }
 
 #define TOFRAY_TWIN_UNARY(type, result, name) \
   template <class H>                          \
-  TOFRAY_FN result<H> name(type<H> x) {       \
+  TOFRAY_INLINE result<H> name(type<H> x) {   \
     return {name(x.a), name(x.b)};            \
   }
 TOFRAY_TWIN_UNARY(Twin, Twin, sqrt)
@@ -111,132 +111,134 @@ TOFRAY_TWIN_UNARY(TwinUint, TwinInt, to_signed)
 #undef TOFRAY_TWIN_UNARY
 
 template <class H>
-TOFRAY_FN Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) {
+TOFRAY_INLINE Twin<H> fma(Twin<H> x, Twin<H> y, Twin<H> z) {
   return {fma(x.a, y.a, z.a), fma(x.b, y.b, z.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> fms(Twin<H> x, Twin<H> y, Twin<H> z) {
+TOFRAY_INLINE Twin<H> fms(Twin<H> x, Twin<H> y, Twin<H> z) {
   return {fms(x.a, y.a, z.a), fms(x.b, y.b, z.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) {
+TOFRAY_INLINE Twin<H> fnma(Twin<H> x, Twin<H> y, Twin<H> z) {
   return {fnma(x.a, y.a, z.a), fnma(x.b, y.b, z.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> min(Twin<H> x, Twin<H> y) {
+TOFRAY_INLINE Twin<H> min(Twin<H> x, Twin<H> y) {
   return {min(x.a, y.a), min(x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> max(Twin<H> x, Twin<H> y) {
+TOFRAY_INLINE Twin<H> max(Twin<H> x, Twin<H> y) {
   return {max(x.a, y.a), max(x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> copy_sign(Twin<H> x, Twin<H> y) {
+TOFRAY_INLINE Twin<H> copy_sign(Twin<H> x, Twin<H> y) {
   return {copy_sign(x.a, y.a), copy_sign(x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN Twin<H> select(TwinMask<H> m, Twin<H> x, Twin<H> y) {
+TOFRAY_INLINE Twin<H> select(TwinMask<H> m, Twin<H> x, Twin<H> y) {
   return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN TwinInt<H> select(TwinMask<H> m, TwinInt<H> x, TwinInt<H> y) {
+TOFRAY_INLINE TwinInt<H> select(TwinMask<H> m, TwinInt<H> x, TwinInt<H> y) {
   return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN TwinUint<H> select(TwinMask<H> m, TwinUint<H> x, TwinUint<H> y) {
+TOFRAY_INLINE TwinUint<H> select(TwinMask<H> m, TwinUint<H> x, TwinUint<H> y) {
   return {select(m.a, x.a, y.a), select(m.b, x.b, y.b)};
 }
 template <class H>
-TOFRAY_FN bool any(TwinMask<H> m) {
+TOFRAY_INLINE bool any(TwinMask<H> m) {
   return any(m.a | m.b);
 }
 template <class H>
-TOFRAY_FN bool all(TwinMask<H> m) {
+TOFRAY_INLINE bool all(TwinMask<H> m) {
   return all(m.a & m.b);
 }
 
 template <class H>
-TOFRAY_FN std::uint32_t lanes_of(TwinMask<H> m) {
+TOFRAY_INLINE std::uint32_t lanes_of(TwinMask<H> m) {
   return lanes_of(m.a) | lanes_of(m.b) << lanes<H>;
 }
 
 template <class H>
-TOFRAY_FN void multiply_wide(TwinUint<H> x, TwinUint<H> y, TwinUint<H>& high, TwinUint<H>& low) {
+TOFRAY_INLINE void multiply_wide(TwinUint<H> x, TwinUint<H> y, TwinUint<H>& high, TwinUint<H>& low) {
   multiply_wide(x.a, y.a, high.a, low.a);
   multiply_wide(x.b, y.b, high.b, low.b);
 }
 template <class H>
-TOFRAY_FN Twin<H> gather(const float* table, TwinInt<H> index) {
+TOFRAY_INLINE Twin<H> gather(const float* table, TwinInt<H> index) {
   return {gather(table, index.a), gather(table, index.b)};
 }
 template <class H>
-TOFRAY_FN TwinInt<H> gather(const std::int32_t* table, TwinInt<H> index) {
+TOFRAY_INLINE TwinInt<H> gather(const std::int32_t* table, TwinInt<H> index) {
   return {gather(table, index.a), gather(table, index.b)};
 }
 template <class H>
-TOFRAY_FN void gather_pair(const float* table, TwinInt<H> index, Twin<H>& first, Twin<H>& second) {
+TOFRAY_INLINE void gather_pair(const float* table, TwinInt<H> index, Twin<H>& first, Twin<H>& second) {
   gather_pair(table, index.a, first.a, second.a);
   gather_pair(table, index.b, first.b, second.b);
 }
 template <class H>
-TOFRAY_FN std::int32_t first_of(TwinMask<H> m, TwinInt<H> x) {
+TOFRAY_INLINE std::int32_t first_of(TwinMask<H> m, TwinInt<H> x) {
   return any(m.a) ? first_of(m.a, x.a) : first_of(m.b, x.b);
 }
 template <class H>
-TOFRAY_FN float lowest(Twin<H> x) {
+TOFRAY_INLINE float lowest(Twin<H> x) {
   return lowest(min(x.a, x.b));
 }
 template <class H>
-TOFRAY_FN float highest(Twin<H> x) {
+TOFRAY_INLINE float highest(Twin<H> x) {
   return highest(max(x.a, x.b));
 }
 
 /// How many lanes of the second half a count of both reaches.
 template <class H>
-TOFRAY_FN int beyond(int n) {
+TOFRAY_INLINE int beyond(int n) {
   return n > lanes<H> ? n - lanes<H> : 0;
 }
 
 template <class H>
 struct Memory<Twin<H>> {
-  TOFRAY_FN static void finish_stores() { Memory<H>::finish_stores(); }
-  TOFRAY_FN static Twin<H> load(const float* from, int n) { return {num::load<H>(from, n), num::load<H>(from + lanes<H>, beyond<H>(n))}; }
-  TOFRAY_FN static TwinInt<H> load_int(const std::int32_t* from, int n) {
+  TOFRAY_INLINE static void finish_stores() { Memory<H>::finish_stores(); }
+  TOFRAY_INLINE static Twin<H> load(const float* from, int n) {
+    return {num::load<H>(from, n), num::load<H>(from + lanes<H>, beyond<H>(n))};
+  }
+  TOFRAY_INLINE static TwinInt<H> load_int(const std::int32_t* from, int n) {
     return {num::load_int<H>(from, n), num::load_int<H>(from + lanes<H>, beyond<H>(n))};
   }
-  TOFRAY_FN static Twin<H> load_square(const float* from, int row) {
+  TOFRAY_INLINE static Twin<H> load_square(const float* from, int row) {
     return {num::load_square<H>(from, row), num::load_square<H>(from + lanes<H> / 4 * row, row)};
   }
-  TOFRAY_FN static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
+  TOFRAY_INLINE static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
 };
 template <class H>
-TOFRAY_FN void store(float* to, Twin<H> x, int n) {
+TOFRAY_INLINE void store(float* to, Twin<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
 }
 template <class H>
-TOFRAY_FN void store_square(float* to, int row, Twin<H> x) {
+TOFRAY_INLINE void store_square(float* to, int row, Twin<H> x) {
   store_square(to, row, x.a), store_square(to + lanes<H> / 4 * row, row, x.b);
 }
 template <class H, class Element>
-TOFRAY_FN void store(Element* to, TwinInt<H> x, int n) {
+TOFRAY_INLINE void store(Element* to, TwinInt<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
 }
 template <class H>
 inline constexpr bool can_store_past<Twin<H>> = can_store_past<H>;
 template <class H>
-TOFRAY_FN void store_past(float* to, Twin<H> x) {
+TOFRAY_INLINE void store_past(float* to, Twin<H> x) {
   store_past(to, x.a), store_past(to + lanes<H>, x.b);
 }
 template <class H>
-TOFRAY_FN void store_past(std::uint16_t* to, TwinInt<H> x) {
+TOFRAY_INLINE void store_past(std::uint16_t* to, TwinInt<H> x) {
   store_past(to, x.a), store_past(to + lanes<H>, x.b);
 }
 template <class H>
-TOFRAY_FN void store2(float* to, Twin<H> x, Twin<H> y, int n) {
+TOFRAY_INLINE void store2(float* to, Twin<H> x, Twin<H> y, int n) {
   store2(to, x.a, y.a, n), store2(to + 2 * lanes<H>, x.b, y.b, beyond<H>(n));
 }
 template <class H>
-TOFRAY_FN void store3(float* to, Twin<H> x, Twin<H> y, Twin<H> z, int n) {
+TOFRAY_INLINE void store3(float* to, Twin<H> x, Twin<H> y, Twin<H> z, int n) {
   store3(to, x.a, y.a, z.a, n), store3(to + 3 * lanes<H>, x.b, y.b, z.b, beyond<H>(n));
 }
 

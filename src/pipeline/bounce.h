@@ -4,13 +4,13 @@
 #include "brdf/sample.h"
 #include "camera/lens/ray.h"
 #include "num/sobol.h"
-#include "pipeline/alike.h"
 #include "pipeline/gather.h"
 #include "pipeline/light_up.h"
+#include "pipeline/neighbor_similarity.h"
 #include "pipeline/rounds.h"
 #include "trace/anywhere.h"
 
-/// Light that goes from surface to surface before it reaches the camera.                                   [theory: eq. 7.6, 7.7]
+/// Light that goes from surface to surface before it reaches the camera.                          [theory: bounces, path-tracing]
 ///
 /// Paths are followed from the camera on, against the way of the light: from the first surface along a way that its BRDF chooses to the next
 /// one, at each of which all lights are asked directly. What the first surface itself gets from the lights is not part of this: that is
@@ -40,8 +40,8 @@ struct Vertex {
 /// @param before  length of the path up to there [m]
 /// @param area    that a pixel sees 1 m along its ray, across it [m²]
 template <class F>
-TOFRAY_APART Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
-                                   F before) {
+TOFRAY_NOINLINE Vertex<F> next_vertex(const Setup& s, int moment, F area, const shape::FreeRay<F>& ray, const trace::Leaving<F>& from,
+                                      F before) {
   Vertex<F> out;
   const trace::Met<F> met = trace::nearest_from(s.scene, moment, ray, from);
   flow::Surface<F> p = trace::surface_met(s.scene, ray, from, met);
@@ -61,7 +61,7 @@ TOFRAY_APART Vertex<F> next_vertex(const Setup& s, int moment, F area, const sha
 
 /// The first surface of a path.
 template <class F>
-TOFRAY_FN Vertex<F> first_vertex(const Setup& s, int moment, const flow::Ray<F>& ray, F area, F vignetting) {
+TOFRAY_INLINE Vertex<F> first_vertex(const Setup& s, int moment, const flow::Ray<F>& ray, F area, F vignetting) {
   const F per = ray.inverse_length, zero = F(0.0f);
   const trace::Leaving<F> from{num::Int<F>(-1), zero, zero, zero, zero, vignetting > zero};
   return next_vertex<F>(s, moment, area, {zero, zero, zero, ray.x * per, ray.y * per, ray.z * per}, from, zero);
@@ -75,7 +75,7 @@ struct Choice {
   F u, v, chance;
 };
 template <class F>
-TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int half, int sample) {
+TOFRAY_INLINE Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int half, int sample) {
   const num::Uint<F> pixel = num::to_uint(num::Int<F>(p.index) + num::lane_index<F>());
   const num::Random4<F> seed =
       num::philox<F>(pixel, static_cast<std::uint32_t>(bounce), static_cast<std::uint32_t>(half), of_transport, s.keys);
@@ -88,7 +88,7 @@ TOFRAY_FN Choice<F> choose(const BounceView& s, const Pixels& p, int bounce, int
 
 /// Where shadow rays end. [as trace::a_little_before]
 template <class F>
-TOFRAY_FN flow::Place<F> a_little_before(const Setup& s, const flow::Place<F>& p, const flow::Ray<F>& way, F step) {
+TOFRAY_INLINE flow::Place<F> a_little_before(const Setup& s, const flow::Place<F>& p, const flow::Ray<F>& way, F step) {
   return trace::a_little_before(s.scene, p, way, num::sqrt(flow::square_of(p.x, p.y, p.z)), step);
 }
 
@@ -96,8 +96,8 @@ TOFRAY_FN flow::Place<F> a_little_before(const Setup& s, const flow::Place<F>& p
 /// @param step    length of the way along `ray` [m]
 /// @param weight  how much of what the surface sends back the pixel gets
 template <class F>
-TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& step,
-                                   const F& weight) {
+TOFRAY_NOINLINE flow::Path<F> path_by(const Setup& s, int moment, int l, const flow::Surface<F>& p, const flow::Ray<F>& ray, const F& step,
+                                      const F& weight) {
   const flow::Place<F> before = a_little_before(s, p, ray, step);
   const flow::Ray<F> from_light = power::light_ray(s.lights[l], p), to_shade = power::light_ray(s.lights[l], before);
   const float* const at = s.lights[l].position;
@@ -111,22 +111,21 @@ TOFRAY_APART flow::Path<F> path_by(const Setup& s, int moment, int l, const flow
 }
 /// Calls take(l, path) for the way of each light.
 template <class F, class Take>
-TOFRAY_FN void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F step, F weight,
-                          const Take& take) {
+TOFRAY_INLINE void each_light(const Setup& s, int moment, const flow::Surface<F>& p, const flow::Ray<F>& ray, F step, F weight,
+                              const Take& take) {
   for (int l = 0; l < s.scene.lights; ++l) take(l, path_by<F>(s, moment, l, p, ray, step, weight));
 }
 template <class F>
-TOFRAY_FN flow::Ray<F> ray_to(const Vertex<F>& v) {
+TOFRAY_INLINE flow::Ray<F> ray_to(const Vertex<F>& v) {
   return {v.way.x, v.way.y, v.way.z, F(1.0f), F(1.0f)};
 }
 
 /// The light that reaches a surface on the way straight from the lights, and through it the pixel.
 template <class F>
-TOFRAY_FN void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight, flow::Light<F>& light) {
-  each_light<F>(
-      s, moment, v.at, ray_to(v), v.step, weight, [&](int l, const flow::Path<F>& path) __attribute__((always_inline)) {
-        power::add_one_of_many(s.phasors, wanted, l, path, light);
-      });
+TOFRAY_INLINE void light_vertex(const Setup& s, int moment, const power::Wanted& wanted, const Vertex<F>& v, F weight,
+                                flow::Light<F>& light) {
+  each_light<F>(s, moment, v.at, ray_to(v), v.step, weight,
+                [&](int l, const flow::Path<F>& path) TOFRAY_LAMBDA { power::add_one_of_many(s.phasors, wanted, l, path, light); });
   if (s.power.ambient != camera::AmbientLight::directional) return;
   const float* const sun = s.scene.sun(moment);
   const flow::Place<F> p = a_little_before(s, v.at, ray_to(v), v.step);
@@ -144,7 +143,7 @@ struct Onward {
 };
 /// @param weight  what was left up to here
 template <class F>
-TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F>& v, F weight) {
+TOFRAY_INLINE Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F>& v, F weight) {
   const flow::Surface<F>& p = v.at;
   const brdf::Sampled<F> sampled = brdf::sample<F>(p.finish, {p.nx, p.ny, p.nz}, {-v.way.x, -v.way.y, -v.way.z}, choice.u, choice.v);
   const flow::Direction<F>& d = sampled.light;
@@ -166,8 +165,8 @@ TOFRAY_FN Onward<F> leave(const Choice<F>& choice, bool roulette, const Vertex<F
 
 /// Calls meet(b, surface, weight) for what one path of each pixel meets beyond the first surface, b = 1 … most.
 template <class F, class Meet>
-TOFRAY_FN void each_vertex(const Setup& s, int moment, F area, const Pixels& p, const Vertex<F>& first, F vignetting, int half, int sample,
-                           int most, const Meet& meet) {
+TOFRAY_INLINE void each_vertex(const Setup& s, int moment, F area, const Pixels& p, const Vertex<F>& first, F vignetting, int half,
+                               int sample, int most, const Meet& meet) {
   Vertex<F> v = first;
   F weight = F(1.0f);
   for (int b = 1; b <= most; ++b) {
@@ -182,24 +181,25 @@ TOFRAY_FN void each_vertex(const Setup& s, int moment, F area, const Pixels& p, 
 
 /// The light of one path of each pixel.
 template <class F>
-TOFRAY_FN void follow_path(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
-                           F vignetting, int half, int sample, flow::Light<F>& light) {
+TOFRAY_INLINE void follow_path(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
+                               F vignetting, int half, int sample, flow::Light<F>& light) {
   const bool uniform = s.power.ambient == camera::AmbientLight::uniform;
-  each_vertex<F>(
-      s, moment, area, p, first, vignetting, half, sample,
-      s.bounces.most + (uniform ? 1 : 0), [&](int b, const Vertex<F>& v, F share) __attribute__((always_inline)) {
-        if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
-        if (b <= s.bounces.most && num::any(v.at.found)) light_vertex<F>(s, moment, wanted, v, share, light);
-      });
+  each_vertex<F>(s, moment, area, p, first, vignetting, half, sample, s.bounces.most + (uniform ? 1 : 0),
+                 [&](int b, const Vertex<F>& v, F share) TOFRAY_LAMBDA {
+                   if (uniform) light.ambient_rate = light.ambient_rate + num::select(v.escaped, share * F(s.power.ambient_rate), F(0.0f));
+                   if (b <= s.bounces.most && num::any(v.at.found)) light_vertex<F>(s, moment, wanted, v, share, light);
+                 });
 }
 
 /// The lens of a sample within the pixels, or that of their middle.
-TOFRAY_FN const camera::LensView& lens_of(const Setup& s, int item) { return s.subpixel.lens != nullptr ? s.subpixel.lens[item] : s.lens; }
+TOFRAY_INLINE const camera::LensView& lens_of(const Setup& s, int item) {
+  return s.subpixel.lens != nullptr ? s.subpixel.lens[item] : s.lens;
+}
 
 /// The light of a step's paths, at all times, into the light image.
 /// @param item  which step
 template <class F>
-TOFRAY_FN void bounce_pixels(const Setup& s, const Job& job, int item, const Pixels& p) {
+TOFRAY_INLINE void bounce_pixels(const Setup& s, const Job& job, int item, const Pixels& p) {
   const flow::LightImage& image = job.light;
   const PathsOfStep paths = paths_of_step(s, item);
   const num::Mask<F> active = takes_part<F>(s, image, paths.round, p);

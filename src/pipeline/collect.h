@@ -10,7 +10,7 @@ namespace tofray::pipeline {
 
 /// What a pack of pixels keeps from one moment to the next.
 template <class F>
-struct Pack {
+struct PackState {
   flow::Light<F> light;
   bool undisturbed;  ///< `light` is that of what stands still, nothing that moves came between
   effect::Exposure<F> exposure;
@@ -19,15 +19,15 @@ struct Pack {
 
 /// Before the first moment, or before each one where nothing is kept from one to the next.
 template <class F>
-TOFRAY_FN void begin(const Setup& s, const Job& job, const Pixels& p, Pack<F>& pack) {
+TOFRAY_INLINE void begin(const Setup& s, const Job& job, const Pixels& p, PackState<F>& pack) {
   pack.exposure = raw::start<F>(s.sensor, p, line_normals_in(s, job)), pack.undisturbed = false;
 }
 
 /// Raw frames as they would be without noise, before the ADC rounds.
 /// @param first, last  of them, without the last
 template <class F>
-TOFRAY_APART void store_levels(const Setup& s, float* to, const Pixels& p, int first, int last, const flow::Light<F>& light,
-                               const effect::Exposure<F>& exposure) {
+TOFRAY_NOINLINE void store_levels(const Setup& s, float* to, const Pixels& p, int first, int last, const flow::Light<F>& light,
+                                  const effect::Exposure<F>& exposure) {
   for (int k = first; k < last; ++k) {
     num::store(to + p.index + k * s.lens.width * s.lens.height, raw::level_without_noise(s.sensor, k, light, s.phasors.orders, exposure),
                p.count);
@@ -38,8 +38,8 @@ TOFRAY_APART void store_levels(const Setup& s, float* to, const Pixels& p, int f
 /// @param next    pixels that come after these
 /// \tparam plain  as of raw::expose
 template <bool plain, class F>
-TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now, const flow::Light<F>& light,
-                       Pack<F>& pack) {
+TOFRAY_INLINE void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
+                           const flow::Light<F>& light, PackState<F>& pack) {
   const effect::FrameIndex index{job.index_low, job.index_high};
   for (int k = now.first; k < now.last; ++k) {
     const flow::Taps<F> taps = raw::expose<plain>(s.sensor, k, light, s.phasors.orders, index, pack.exposure);
@@ -49,8 +49,8 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
   }
 }
 template <class F>
-TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now, const flow::Light<F>& light,
-                       Pack<F>& pack) {
+TOFRAY_INLINE void collect(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
+                           const flow::Light<F>& light, PackState<F>& pack) {
   if (s.sensor.effects != 0) {
     collect<false>(s, job, p, next, now, light, pack);
   } else {
@@ -63,16 +63,16 @@ TOFRAY_FN void collect(const Setup& s, const Job& job, const Pixels& p, const Pi
     num::store(job.out.gt_signal_e + p.index + k * s.lens.width * s.lens.height, signal, p.count);
   }
 }
-/// Stage 3, not inlined: for walks that are not written out.
+/// Stage 3, not inlined: for sources that are not inlined.
 template <class F>
-TOFRAY_APART void collect_noinline(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
-                                   const flow::Light<F>& light, Pack<F>& pack) {
+TOFRAY_NOINLINE void collect_noinline(const Setup& s, const Job& job, const Pixels& p, const Pixels& next, const Moment& now,
+                                      const flow::Light<F>& light, PackState<F>& pack) {
   collect(s, job, p, next, now, light, pack);
 }
 
 /// Charge above full well, for the pass Blooming, which looks at neighbours.
 template <class F>
-TOFRAY_FN void store_overflow(const Setup& s, const Job& job, const Pixels& p, const effect::Exposure<F>& exposure) {
+TOFRAY_INLINE void store_overflow(const Setup& s, const Job& job, const Pixels& p, const effect::Exposure<F>& exposure) {
   if (s.sensor.blooms != 0) num::store(overflow_in(s, job) + p.index, exposure.overflow, p.count);
 }
 

@@ -11,7 +11,7 @@ namespace tofray::pipeline {
 
 /// Pixels that are computed for the light and charge that come from them alone.
 template <class F>
-TOFRAY_FN num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
+TOFRAY_INLINE num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
   using Int = num::Int<F>;
   const Region& r = s.region;
   if (r.width == 0) return F(1.0f) < F(0.0f);
@@ -22,13 +22,13 @@ TOFRAY_FN num::Mask<F> beside_region(const Setup& s, const Pixels& p) {
 }
 
 /// Whether values by modulation frequency are wanted.
-TOFRAY_FN bool wants_frequencies(const flow::FrameView& out) {
+TOFRAY_INLINE bool wants_frequencies(const flow::FrameView& out) {
   return out.amplitude_by_frequency_e != nullptr || out.range_by_frequency_m != nullptr || out.cycle_by_frequency != nullptr;
 }
 /// Stores it.
 template <class F>
-TOFRAY_APART void store_frequencies(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray,
-                                    const F* difference) {
+TOFRAY_NOINLINE void store_frequencies(const Setup& s, const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray,
+                                       const F* difference) {
   depth::OfFrequency<F> found[flow::max_modulation_frequencies];
   depth::each_frequency(s.decoder, difference, ray, p, found);
   for (int i = 0; i < s.decoder.modulations; ++i) {
@@ -42,22 +42,22 @@ TOFRAY_APART void store_frequencies(const Setup& s, const flow::FrameView& out, 
 
 /// Stage 4.
 template <class F>
-TOFRAY_FN void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
-                          num::Mask<F> clipped, F vignetting) {
+TOFRAY_INLINE void find_depth(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                              num::Mask<F> clipped, F vignetting) {
   const auto outside = (!(vignetting > F(0.0f))) | beside_region<F>(s, p);
   const flow::Depth<F> found = depth::decode<F>(s.decoder, difference, clipped, outside, ray, p);
   store(job.out.amplitude_e, p, found.amplitude);
   store(job.out.ambient_e, p, found.ambient);
   store_range(job.out, p, ray, found.range, depth::confidence(s.decoder, found.noise, found.trust), found.flags);
-  if (job.filter != Filter::none) num::store(trust_in(s, job) + p.index, found.trust, p.count);
+  if (job.filter != FilterKind::none) num::store(trust_in(s, job) + p.index, found.trust, p.count);
   if (wants_frequencies(job.out)) store_frequencies<F>(s, job.out, p, ray, difference);
   store(job.out.noise_m, p, num::select((found.flags & num::Int<F>(depth::no_return)) == num::Int<F>(0), found.noise, nan<F>()));
 }
 
-/// Stage 4, not inlined: for walks that are not written out, and for recordings.
+/// Stage 4, not inlined: for sources that are not inlined, and for recordings.
 template <class F>
-TOFRAY_APART void find_depth_noinline(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
-                                      const num::Mask<F>& clipped, const F& vignetting) {
+TOFRAY_NOINLINE void find_depth_noinline(const Setup& s, const Job& job, const Pixels& p, const flow::Ray<F>& ray, const F* difference,
+                                         const num::Mask<F>& clipped, const F& vignetting) {
   find_depth<F>(s, job, p, ray, difference, clipped, vignetting);
 }
 

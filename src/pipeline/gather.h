@@ -4,22 +4,22 @@
 #include "pipeline/store.h"
 #include "power/phasors.h"
 
-/// The light image: what stages 1 and 2 add to it, and what stage 3 reads from it.                          [theory: eq. 7.1]
+/// The light image: what stages 1 and 2 add to it, and what stage 3 reads from it.                      [theory: light-image]
 namespace tofray::pipeline {
 
 /// Modulation frequencies of which the image keeps something at each of its times, and planes of a time.
-TOFRAY_FN int kept_modulations(const Setup& s, int times) { return times == 1 ? s.phasors.modulations : 1; }
-TOFRAY_FN int planes_of_modulation(const camera::PhasorView& s) { return s.sums_alone != 0 ? 2 : 2 * s.orders; }
-TOFRAY_FN int light_planes(const Setup& s, int times) { return 2 + kept_modulations(s, times) * planes_of_modulation(s.phasors); }
+TOFRAY_INLINE int kept_modulations(const Setup& s, int times) { return times == 1 ? s.phasors.modulations : 1; }
+TOFRAY_INLINE int planes_of_modulation(const camera::PhasorView& s) { return s.sums_alone != 0 ? 2 : 2 * s.orders; }
+TOFRAY_INLINE int light_planes(const Setup& s, int times) { return 2 + kept_modulations(s, times) * planes_of_modulation(s.phasors); }
 
-TOFRAY_FN std::int64_t light_place(const Setup& s, const Pixels& p, int times, int time, int plane) {
+TOFRAY_INLINE std::int64_t light_place(const Setup& s, const Pixels& p, int times, int time, int plane) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   return (std::int64_t{time} * light_planes(s, times) + plane) * pixels + p.index;
 }
 
 /// Calls visit(plane, value) for all that the image keeps of a light at a time: of raw frame number `time`, or of all.
 template <class F, class L, class Visit>
-TOFRAY_FN void each_plane(const Setup& s, int times, int time, L& light, const Visit& visit) {
+TOFRAY_INLINE void each_plane(const Setup& s, int times, int time, L& light, const Visit& visit) {
   visit(0, light.signal_rate), visit(1, light.ambient_rate);
   const int kept = kept_modulations(s, times), planes = planes_of_modulation(s.phasors), orders = s.phasors.orders;
   if (times > 1 && s.sensor.frame[time].lit == 0) return;
@@ -49,8 +49,8 @@ struct Adding {
   num::Mask<F> active;  ///< pixels that get more; the others keep what they have
 };
 template <class F>
-TOFRAY_APART void gather_planes(const Setup& s, const Growing& image, const Pixels& p, std::int64_t at, const F* values, int planes,
-                                const Adding<F>& how) {
+TOFRAY_NOINLINE void gather_planes(const Setup& s, const Growing& image, const Pixels& p, std::int64_t at, const F* values, int planes,
+                                   const Adding<F>& how) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   for (int plane = 0; plane < planes; ++plane, at += pixels) {
     F sum = values[plane] * F(how.share);
@@ -64,20 +64,19 @@ TOFRAY_APART void gather_planes(const Setup& s, const Growing& image, const Pixe
 /// Adds a share of a light to the image. (What is handed to a function lies in memory: that is what the image keeps, and not all of a
 /// light's kilobytes.)
 template <class F>
-TOFRAY_FN void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
-                            const Adding<F>& how) {
+TOFRAY_INLINE void gather_light(const Setup& s, const Growing& image, const Pixels& p, int times, int time, const flow::Light<F>& light,
+                                const Adding<F>& how) {
   F values[2 + 2 * flow::max_modulation_frequencies * flow::max_harmonics];
   int planes = 0;
-  each_plane<F>(
-      s, times, time, light, [&](int plane, F value) __attribute__((always_inline)) {
-        values[plane] = value;
-        ++planes;
-      });
+  each_plane<F>(s, times, time, light, [&](int plane, F value) TOFRAY_LAMBDA {
+    values[plane] = value;
+    ++planes;
+  });
   gather_planes<F>(s, image, p, light_place(s, p, times, time, 0), values, planes, how);
 }
 
 /// The first raw frame to which light that stays the same is what it is to raw frame number `time`: of the same modulation frequency.
-TOFRAY_FN int first_alike(const Setup& s, int time) {
+TOFRAY_INLINE int first_alike(const Setup& s, int time) {
   const effect::RawFrameView& frame = s.sensor.frame[time];
   int k = 0;
   while ((s.sensor.frame[k].lit != 0) != (frame.lit != 0) || (frame.lit != 0 && s.sensor.frame[k].modulation != frame.modulation)) ++k;
@@ -87,15 +86,15 @@ TOFRAY_FN int first_alike(const Setup& s, int time) {
 /// Adds a share of a light that is the same at all times to the image.
 /// @param once  to the first raw frame of each modulation frequency alone: spread_alike does the rest, once all samples are there
 template <class F>
-TOFRAY_FN void gather_all_times(const Setup& s, const Growing& image, const Pixels& p, int times, const flow::Light<F>& light,
-                                const Adding<F>& how, bool once) {
+TOFRAY_INLINE void gather_all_times(const Setup& s, const Growing& image, const Pixels& p, int times, const flow::Light<F>& light,
+                                    const Adding<F>& how, bool once) {
   for (int time = 0; time < times; ++time)
     if (!once || first_alike(s, time) == time) gather_light<F>(s, image, p, times, time, light, how);
 }
 
 /// Gives all raw frames the light of the first one of their modulation frequency.
 template <class F>
-TOFRAY_APART void spread_alike(const Setup& s, float* values, const Pixels& p, int times) {
+TOFRAY_NOINLINE void spread_alike(const Setup& s, float* values, const Pixels& p, int times) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   for (int time = 0; time < times; ++time) {
     const int first = first_alike(s, time), planes = s.sensor.frame[time].lit != 0 ? light_planes(s, times) : 2;
@@ -107,31 +106,29 @@ TOFRAY_APART void spread_alike(const Setup& s, float* values, const Pixels& p, i
 }
 
 /// Values of all planes at all times.
-TOFRAY_FN std::int64_t light_values(const Setup& s, int times) {
+TOFRAY_INLINE std::int64_t light_values(const Setup& s, int times) {
   return std::int64_t{times} * light_planes(s, times) * s.lens.width * s.lens.height;
 }
 
 /// Reads the light of the pixels at a time.
 /// @param values  the whole image's
 template <class F>
-TOFRAY_FN void load_light(const Setup& s, const float* values, const Pixels& p, int times, int time, flow::Light<F>& light) {
-  each_plane<F>(
-      s, times, time, light, [&](int plane, F& value) __attribute__((always_inline)) {
-        value = num::load<F>(values + light_place(s, p, times, time, plane), p.count);
-      });
+TOFRAY_INLINE void load_light(const Setup& s, const float* values, const Pixels& p, int times, int time, flow::Light<F>& light) {
+  each_plane<F>(s, times, time, light,
+                [&](int plane, F& value) TOFRAY_LAMBDA { value = num::load<F>(values + light_place(s, p, times, time, plane), p.count); });
   if (s.phasors.sums_alone != 0 || (times > 1 && s.sensor.frame[time].lit == 0)) return;
   const int j = times > 1 ? s.sensor.frame[time].modulation : 0;
   power::add_up(s.phasors, power::Wanted{j, j + kept_modulations(s, times)}, light);
 }
 /// Reads the light that reaches the pixels at a time.
 template <class F>
-TOFRAY_FN void load_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, flow::Light<F>& light) {
+TOFRAY_INLINE void load_light(const Setup& s, const flow::LightImage& image, const Pixels& p, int time, flow::Light<F>& light) {
   load_light(s, image.scattered != nullptr ? image.scattered : image.values, p, image.times, time, light);
 }
 
 /// The light of all ways, once the direct and the indirect part of it are there.
 template <class F>
-TOFRAY_FN void sum_light(const Setup& s, const flow::LightImage& image, const Pixels& p) {
+TOFRAY_INLINE void sum_light(const Setup& s, const flow::LightImage& image, const Pixels& p) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   const int planes = image.times * light_planes(s, image.times), compared = image.object != nullptr ? flow::compared_planes : 0;
   for (int i = 0; i < planes + compared; ++i) {
@@ -143,25 +140,23 @@ TOFRAY_FN void sum_light(const Setup& s, const flow::LightImage& image, const Pi
 }
 
 /// Place of what comparing the samples gives, behind the light.
-TOFRAY_FN std::int64_t compared_place(const Setup& s, const flow::LightImage& image, const Pixels& p, int plane) {
+TOFRAY_INLINE std::int64_t compared_place(const Setup& s, const flow::LightImage& image, const Pixels& p, int plane) {
   return light_place(s, p, image.times, image.times, plane);
 }
 
 /// Notes what a sample within the pixels sees beside what their middle sees.
 /// @param middle  [height][width] object that the middle sees, −1: none
 template <class F>
-TOFRAY_APART void compare_sample(const Setup& s, const flow::LightImage& image, const std::int32_t* middle, const Pixels& p, float share,
-                                 bool first) {
+TOFRAY_NOINLINE void compare_sample(const Setup& s, const flow::LightImage& image, const std::int32_t* middle, const Pixels& p, float share,
+                                    bool first) {
   using Int = num::Int<F>;
   const Int object = num::load_int<F>(image.object + p.index, p.count);
   const F range = num::load<F>(image.range + p.index, p.count);
   const auto found = object > Int(-1);
-  const auto before = [&](int plane, float otherwise) __attribute__((always_inline)) {
+  const auto before = [&](int plane, float otherwise) TOFRAY_LAMBDA {
     return first ? F(otherwise) : num::load<F>(image.before + compared_place(s, image, p, plane), p.count);
   };
-  const auto put = [&](int plane, F value) __attribute__((always_inline)) {
-    num::store(image.values + compared_place(s, image, p, plane), value, p.count);
-  };
+  const auto put = [&](int plane, F value) TOFRAY_LAMBDA { num::store(image.values + compared_place(s, image, p, plane), value, p.count); };
   const F same = before(0, 0.0f), nearest = before(1, 3e38f), farthest = before(2, 0.0f);
   put(0, same + num::select(object == num::load_int<F>(middle + p.index, p.count), F(share), F(0.0f)));
   put(1, num::select(found, num::min(nearest, range), nearest));
@@ -172,11 +167,9 @@ constexpr float mixed_range = 0.05f;  ///< [m] of ranges within a pixel that mak
 
 /// The ground truth that comes of it: samples see more than one object, or ranges further apart than mixed_range.
 template <class F>
-TOFRAY_FN void store_mixed(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
+TOFRAY_INLINE void store_mixed(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
   if (image.object == nullptr) return;
-  const auto load = [&](int plane) __attribute__((always_inline)) {
-    return num::load<F>(image.values + compared_place(s, image, p, plane), p.count);
-  };
+  const auto load = [&](int plane) TOFRAY_LAMBDA { return num::load<F>(image.values + compared_place(s, image, p, plane), p.count); };
   const F sum = load(0), spread = load(2) - load(1);
   const F same = num::select(sum > F(0.99999f), F(1.0f), sum);  // shares add up to 1 but for rounding
   const auto mixed = (same < F(1.0f)) | (spread > F(mixed_range));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/seen.h"
+#include "pipeline/surface_truth.h"
 #include "power/received.h"
 #include "trace/detail.h"
 #include "trace/visible.h"
@@ -19,52 +19,53 @@ struct Moment {
 };
 
 /// Times at which an exposure sees what moves.
-TOFRAY_FN int times_within_exposure(const Setup& s) { return s.scene.moments > 0 ? s.scene.moments / s.sensor.raw_frames : 1; }
+TOFRAY_INLINE int times_within_exposure(const Setup& s) { return s.scene.moments > 0 ? s.scene.moments / s.sensor.raw_frames : 1; }
 
 /// @param moments  1, or as many for each raw frame. The truth is that of the middle of the middle one.
 /// @param blurs    whether the light of an exposure is a mean over its times also where there is one moment for all
-TOFRAY_FN Moment moment_of(const Setup& s, int moment, int moments, bool blurs) {
+TOFRAY_INLINE Moment moment_of(const Setup& s, int moment, int moments, bool blurs) {
   if (moments == 1) return {0, s.sensor.raw_frames, 0, 0, blurs ? times_within_exposure(s) : 1, true, true};
   const int samples = moments / s.sensor.raw_frames, frame = moment / samples, sample = moment % samples;
   return {frame, frame + 1, moment, sample, samples, frame == s.sensor.raw_frames / 2 && sample == samples / 2, false};
 }
 
 /// Which of the scene's moments that is.
-TOFRAY_FN int truth_moment(const Setup& s) {
+TOFRAY_INLINE int truth_moment(const Setup& s) {
   if (s.scene.moments == 0) return 0;
   const int samples = s.scene.moments / s.sensor.raw_frames;
   return s.sensor.raw_frames / 2 * samples + samples / 2;
 }
 
 /// Light of what stands still may serve all raw frames; other light serves those of its moment.
-TOFRAY_FN power::Wanted wanted(const Setup& s, const Moment& now, bool undisturbed) {
+TOFRAY_INLINE power::Wanted wanted(const Setup& s, const Moment& now, bool undisturbed) {
   if (undisturbed || now.last > now.first + 1) return power::all_of(s.phasors);
   const camera::RawFrameView& frame = s.sensor.frame[now.first];
   return frame.lit != 0 ? power::Wanted{frame.modulation, frame.modulation + 1} : power::Wanted{0, 0};
 }
 
 /// Stage 1: the nearest surface of all that stands still.
-template <class F, class Near>
-TOFRAY_FN flow::Hit<F> see_still(const Setup& s, const Near& near, const flow::Ray<F>& ray) {
+template <class F, class Candidates>
+TOFRAY_INLINE flow::Hit<F> see_still(const Setup& s, const Candidates& near, const flow::Ray<F>& ray) {
   return trace::nearest(near.still_from_camera(s), ray, flow::no_hit<F>());
 }
 
 /// Stage 1: the nearest surface, of what stands still and of what moves at the time of one raw frame.
-template <class F, class Near>
-TOFRAY_FN flow::Hit<F> see_moving(const Setup& s, const Near& near, int moment, const flow::Ray<F>& ray, const flow::Hit<F>& still) {
+template <class F, class Candidates>
+TOFRAY_INLINE flow::Hit<F> see_moving(const Setup& s, const Candidates& near, int moment, const flow::Ray<F>& ray,
+                                      const flow::Hit<F>& still) {
   return trace::nearest(near.moving_from_camera(s, moment), ray, still);
 }
 
 /// Outside the lens model a pixel sees nothing; its ray is only a stand-in.
 template <class F>
-TOFRAY_FN void hide_outside_lens(F vignetting, flow::Surface<F>& surface) {
+TOFRAY_INLINE void hide_outside_lens(F vignetting, flow::Surface<F>& surface) {
   surface.found = surface.found & (vignetting > F(0.0f));
 }
 
 /// What is where a ray through the lens hits.
 template <class F>
-TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& lens, const flow::Ray<F>& ray, const flow::Hit<F>& hit,
-                                        F vignetting) {
+TOFRAY_INLINE flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& lens, const flow::Ray<F>& ray, const flow::Hit<F>& hit,
+                                            F vignetting) {
   flow::Surface<F> surface = trace::surface(s.scene, ray, hit);
   if (s.scene.any_details != 0) {
     // What is handed to a function lies in memory; the originals need not.
@@ -80,25 +81,25 @@ TOFRAY_FN flow::Surface<F> surface_seen(const Setup& s, const camera::LensView& 
 
 /// Where something that moves stands between a light and the surface, or the sun and it: asked in two places.
 template <class F, class Culled>
-TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Place<F>& p) {
+TOFRAY_NOINLINE num::Mask<F> blocked_by_what_moves(const Culled& culled, const flow::Ray<F>& from_light, const flow::Place<F>& p) {
   return trace::blocked(culled, from_light, p);
 }
 template <class F, class Culled>
-TOFRAY_APART num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Place<F>& p) {
+TOFRAY_NOINLINE num::Mask<F> blocked_by_what_moves(const Culled& culled, const float* sun, const flow::Place<F>& p) {
   return trace::blocked_parallel(culled, sun, p);
 }
 
 /// Shadow rays through what stands still and, if it can come between, what moves.
-template <class F, class Near>
+template <class F, class Candidates>
 struct ShadowRays {
   const Setup& s;
-  Near& near;
+  Candidates& near;
   int moment;
   bool still, moving;
   flow::Place<F> p;  ///< a little before the surface
 
-  TOFRAY_FN const float* sun_direction() const { return s.scene.sun(moment); }
-  TOFRAY_FN num::Mask<F> of_light(int l) {
+  TOFRAY_INLINE const float* sun_direction() const { return s.scene.sun(moment); }
+  TOFRAY_INLINE num::Mask<F> of_light(int l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
     near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
@@ -108,7 +109,7 @@ struct ShadowRays {
     }
     return dark;
   }
-  TOFRAY_FN num::Mask<F> of_sun() {
+  TOFRAY_INLINE num::Mask<F> of_sun() {
     near.look_along(s, moment, p);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) {
@@ -124,8 +125,8 @@ struct ShadowRays {
 
 /// Stage 2: light, where no shadow is. The shadows are asked for light by light, in their order.
 template <class F, class Shadows>
-TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& shadows, const flow::Ray<F>& ray, const flow::Surface<F>& p,
-                        F vignetting, flow::Light<F>& light, flow::Radiometry<F>& radiometry) {
+TOFRAY_INLINE void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& shadows, const flow::Ray<F>& ray,
+                            const flow::Surface<F>& p, F vignetting, flow::Light<F>& light, flow::Radiometry<F>& radiometry) {
   if (s.scene.lights == 0) power::clear(s.phasors, wanted, light);
   for (int l = 0; l < s.scene.lights; ++l) {
     const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
@@ -147,9 +148,9 @@ TOFRAY_FN void light_up(const Setup& s, const power::Wanted& wanted, Shadows&& s
 
 /// Whether something that moves keeps a light off any of the pixels.
 /// @param p  a little before the surface
-template <class F, class Near>
-TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, const flow::Place<F>& p) {
-  ShadowRays<F, Near> shadows{s, near, moment, false, true, p};
+template <class F, class Candidates>
+TOFRAY_INLINE num::Mask<F> in_moving_shadow(const Setup& s, Candidates& near, int moment, const flow::Place<F>& p) {
+  ShadowRays<F, Candidates> shadows{s, near, moment, false, true, p};
   num::Mask<F> dark = F(1.0f) < F(0.0f);
   for (int l = 0; l < s.scene.lights; ++l) {
     dark = dark | shadows.of_light(l);
@@ -168,9 +169,10 @@ TOFRAY_FN num::Mask<F> in_moving_shadow(const Setup& s, Near& near, int moment, 
 ///               pixels of a tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too
 /// @param still  what they would hit if nothing moved
 /// @return false where `light` is as it was
-template <class F, class Near>
-TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const Moment& now, const Pixels& p, const flow::Ray<F>& ray,
-                              const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting, flow::Light<F>& light, bool& undisturbed) {
+template <class F, class Candidates>
+TOFRAY_INLINE bool light_of_scene(const Setup& s, const Job& job, Candidates& near, const Moment& now, const Pixels& p,
+                                  const flow::Ray<F>& ray, const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting,
+                                  flow::Light<F>& light, bool& undisturbed) {
   const bool moves = near.moves(s);
   if (job.out.gt_phase_flow_px != nullptr && now.sample == now.samples / 2) {
     const flow::Ray<F> ray_copy = ray;
@@ -188,12 +190,12 @@ TOFRAY_FN bool light_of_scene(const Setup& s, const Job& job, Near& near, const 
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Near>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting,
+    light_up(s, wanted(s, now, calm), ShadowRays<F, Candidates>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting,
              light, radiometry);
     // Where rays say how much of the sky a surface sees, it does not see all of it.
     if (bounces(s, Stage::trace) && s.power.ambient == camera::AmbientLight::uniform) light.ambient_rate = F(0.0f);
   }
-  const auto material = [&]() __attribute__((always_inline)) { return trace::material<F>(s.scene, hit); };
+  const auto material = [&]() TOFRAY_LAMBDA { return trace::material<F>(s.scene, hit); };
   if (now.truth) {
     store_truth(job.out, p, surface, radiometry, material);
     if (s.last_stage >= Stage::power) store(job.out.gt_ambient_e_per_s, p, light.ambient_rate);

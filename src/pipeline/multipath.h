@@ -13,7 +13,7 @@ constexpr float per_turn = 0.15915494f;  ///< 1/(2π)
 
 /// A−B per second of each raw frame, of light as the image keeps it.
 template <class F>
-TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p, int times, F* difference) {
+TOFRAY_INLINE void differences(const Setup& s, const float* values, const Pixels& p, int times, F* difference) {
   flow::Light<F> light;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
     if (times > 1 || k == 0) load_light(s, values, p, times, times > 1 ? k : 0, light);
@@ -23,7 +23,7 @@ TOFRAY_FN void differences(const Setup& s, const float* values, const Pixels& p,
 }
 
 /// Half path that all light shows less that which the direct light shows, as the decoder has them from raw frames without noise, for each
-/// modulation frequency: at most half its unambiguous range to either side.                                     [theory: eq. 7.8]
+/// modulation frequency: at most half its unambiguous range to either side.                             [theory: multipath-error]
 template <class F>
 struct MultipathError {
   F value;              ///< [m]
@@ -31,31 +31,32 @@ struct MultipathError {
   num::Mask<F> exists;  ///< there is direct light
 };
 template <class F>
-TOFRAY_FN MultipathError<F> multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all,
-                                            const F* direct) {
+TOFRAY_INLINE MultipathError<F> multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all,
+                                                const F* direct) {
   const depth::Estimate<F> of_all = depth::estimate(s, m, all), of_direct = depth::estimate(s, m, direct);
   F slope, unused;
   const F turns = depth::unwiggle(s, m, of_all.turns, slope) - depth::unwiggle(s, m, of_direct.turns, unused);
   return {(turns - num::round_even(turns)) * F(m.half_wave), slope, of_all.amplitude, of_direct.amplitude > F(0.0f)};
 }
 
-/// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light. [theory: eq. 7.13]
+/// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light.
+///                                                                                                                     [theory: path-noise]
 /// @param slope      dφ/dφ̂
 /// @param amplitude  |Ẑ| [e⁻]
 /// @param variance   of the light across Ẑ [e⁻²]
 template <class F>
-TOFRAY_FN F half_path_error(const camera::DecodeModulation& m, F slope, F amplitude, F variance) {
+TOFRAY_INLINE F half_path_error(const camera::DecodeModulation& m, F slope, F amplitude, F variance) {
   const F error = num::abs(slope) * F(m.half_wave * per_turn) * num::sqrt(variance) / num::max(amplitude, F(1e-20f));
   return num::select(variance > F(0.0f), num::min(error, F(0.5f * m.half_wave)), F(0.0f));
 }
 
 /// Of each raw frame that of its modulation frequency, and the standard error of it.
 template <class F>
-TOFRAY_APART void store_multipath(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
+TOFRAY_NOINLINE void store_multipath(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p) {
   F all[flow::max_raw_frames], direct[flow::max_raw_frames];
   differences(s, image.values, p, image.times, all), differences(s, image.before, p, image.times, direct);
   const int pixels = s.lens.width * s.lens.height;
-  const auto put = [&](int k, F error, F noise) __attribute__((always_inline)) {
+  const auto put = [&](int k, F error, F noise) TOFRAY_LAMBDA {
     const Pixels at{p.index + k * pixels, p.count};
     store(out.gt_multipath_m, at, error), store(out.gt_path_noise_m, at, noise);
   };
@@ -65,7 +66,7 @@ TOFRAY_APART void store_multipath(const Setup& s, const flow::FrameView& out, co
   for (int j = 0; j < s.decoder.modulations; ++j) {
     const camera::DecodeModulation& m = s.decoder.modulation[j];
     const MultipathError<F> error = multipath_error(s.decoder, m, all, direct);
-    const auto known = [&](F value) __attribute__((always_inline)) { return num::select(error.exists, value, nan<F>()); };
+    const auto known = [&](F value) TOFRAY_LAMBDA { return num::select(error.exists, value, nan<F>()); };
     F noise = nan<F>();
     if (variance != nullptr)
       noise = known(half_path_error(m, error.slope, error.amplitude * F(m.integration_time),
@@ -76,13 +77,12 @@ TOFRAY_APART void store_multipath(const Setup& s, const flow::FrameView& out, co
 
 /// @param time  of the ground truth
 template <class F>
-TOFRAY_FN void store_bounced(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p, int time) {
+TOFRAY_INLINE void store_bounced(const Setup& s, const flow::FrameView& out, const flow::LightImage& image, const Pixels& p, int time) {
   if (image.indirect == nullptr) return;
-  const auto rate = [&](const float* values, int at, int plane) __attribute__((always_inline)) {
-    return num::load<F>(values + light_place(s, p, image.times, at, plane), p.count);
-  };
+  const auto rate = [&](const float* values, int at, int plane)
+                        TOFRAY_LAMBDA { return num::load<F>(values + light_place(s, p, image.times, at, plane), p.count); };
   store(out.gt_ambient_e_per_s, p, rate(image.values, time, 1));
-  const auto electrons = [&](float* to, const float* values) __attribute__((always_inline)) {
+  const auto electrons = [&](float* to, const float* values) TOFRAY_LAMBDA {
     for (int k = 0; k < s.sensor.raw_frames && to != nullptr; ++k) {
       const camera::RawFrameView& frame = s.sensor.frame[k];
       const F charge = frame.lit != 0 ? rate(values, image.times > 1 ? k : 0, 0) * F(frame.integration_time) : F(0.0f);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/alike.h"
 #include "pipeline/multipath.h"
+#include "pipeline/neighbor_similarity.h"
 
-/// How well light that bounces is known, and how many paths a pixel needs.                             [theory: eq. 7.13]
+/// How well light that bounces is known, and how many paths a pixel needs.                           [theory: path-noise]
 ///
 /// A pixel's paths come in two halves that chance keeps apart: how far these are from each other says, on average over many pixels, how far
 /// their mean is from the truth.
@@ -12,7 +12,7 @@ namespace tofray::pipeline {
 
 /// A−B of each raw frame of all light [e⁻], as far as it is known.
 template <class F>
-TOFRAY_FN void expected_differences(const Setup& s, const flow::LightImage& image, const Pixels& p, F* difference) {
+TOFRAY_INLINE void expected_differences(const Setup& s, const flow::LightImage& image, const Pixels& p, F* difference) {
   F indirect[flow::max_raw_frames];
   differences(s, image.before, p, image.times, difference), differences(s, image.indirect, p, image.times, indirect);
   for (int k = 0; k < s.sensor.raw_frames; ++k) difference[k] = (difference[k] + indirect[k]) * F(s.sensor.frame[k].integration_time);
@@ -20,7 +20,7 @@ TOFRAY_FN void expected_differences(const Setup& s, const flow::LightImage& imag
 
 /// Paths·(what half the difference of the two halves adds across Ẑ)² of each modulation frequency [e⁻²].
 template <class F>
-TOFRAY_FN void store_path_error(const Setup& s, const flow::LightImage& image, int round, const Pixels& p) {
+TOFRAY_INLINE void store_path_error(const Setup& s, const flow::LightImage& image, int round, const Pixels& p) {
   F all[flow::max_raw_frames], apart[flow::max_raw_frames];
   expected_differences(s, image, p, all);
   differences(s, image.indirect + light_values(s, image.times), p, image.times, apart);
@@ -45,7 +45,7 @@ constexpr float share_of_depth_noise = 0.2f;
 ///
 /// Of what chance does to the light of a pixel, material and direct light change no more than this.
 template <class F>
-TOFRAY_FN void pooled_errors(const Setup& s, const flow::LightImage& image, const InRow& at, const SurfaceGuide<F>& here, F* pooled) {
+TOFRAY_INLINE void pooled_errors(const Setup& s, const flow::LightImage& image, const InRow& at, const SurfaceGuide<F>& here, F* pooled) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   const int modulations = s.decoder.modulations;
   F squares = F(0.0f);
@@ -65,7 +65,7 @@ TOFRAY_FN void pooled_errors(const Setup& s, const flow::LightImage& image, cons
 
 /// The variance of each pixel's light across Ẑ, and how many paths it shall have in the end.
 template <class F>
-TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, int round, const Pixels& p) {
+TOFRAY_INLINE void store_path_noise(const Setup& s, const flow::LightImage& image, int round, const Pixels& p) {
   F all[flow::max_raw_frames], pooled[flow::max_modulation_frequencies];
   expected_differences(s, image, p, all);
   const InRow at = in_row(s, p);
@@ -74,9 +74,8 @@ TOFRAY_FN void store_path_noise(const Setup& s, const flow::LightImage& image, i
   const num::Int<F> paths = paths_known<F>(s, image, round, p);
   // What a pixel stopped by is what is said of it: with neighbours that went on it would be another guess, which was not asked for.
   const num::Mask<F> goes_on = takes_part<F>(s, image, round, p);
-  const auto ambient = [&](const float* values) __attribute__((always_inline)) {
-    return num::load<F>(values + light_place(s, p, image.times, image.times / 2, 1), p.count);
-  };
+  const auto ambient = [&](const float* values)
+                           TOFRAY_LAMBDA { return num::load<F>(values + light_place(s, p, image.times, image.times / 2, 1), p.count); };
   const F ambient_rate = ambient(image.before) + ambient(image.indirect);
   F worst = F(0.0f), weight = F(0.0f);
   for (int j = 0; j < s.decoder.modulations; ++j) {

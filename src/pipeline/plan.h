@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/enter.h"
+#include "pipeline/external_input.h"
 #include "pipeline/pass/list.h"
 
 /// The plan of a frame: which passes it takes, in which order.
@@ -26,9 +26,9 @@ enum class Part : std::int32_t {
 struct TwoBuffers {
   std::int32_t changed;  ///< 1: the front one is where the light image says that the back one is
 
-  TOFRAY_FN void change() { changed = 1 - changed; }
+  TOFRAY_INLINE void change() { changed = 1 - changed; }
   /// Where they are now, out of where the light image has them.
-  TOFRAY_FN void place(float*& front, float*& back) const {
+  TOFRAY_INLINE void place(float*& front, float*& back) const {
     if (changed == 0) return;
     float* const first = front;
     front = back, back = first;
@@ -49,50 +49,50 @@ struct Step {
 };
 
 /// Whether frames go through the light image.
-TOFRAY_FN bool has_light_image(const Setup& s, Stage entry) {
+TOFRAY_INLINE bool has_light_image(const Setup& s, Stage entry) {
   if (entry == Stage::depth) return false;
   return s.scatter.terms > 0 || ((s.subpixel.lens != nullptr || bounces(s, entry)) && entry == Stage::trace);
 }
 /// Whether arrays are wanted of what samples see that the middle of a pixel does not.
-TOFRAY_FN bool wants_mixed(const Setup& s, const flow::FrameView& out) {
+TOFRAY_INLINE bool wants_mixed(const Setup& s, const flow::FrameView& out) {
   return s.subpixel.lens != nullptr && out.gt_object_id != nullptr && (out.gt_mixed != nullptr || out.gt_object_share != nullptr);
 }
-TOFRAY_FN bool wants_truth(const flow::FrameView& out) {
+TOFRAY_INLINE bool wants_truth(const flow::FrameView& out) {
 #define TOFRAY_OR(name, ...) || out.name != nullptr
   return false TOFRAY_TRUTH_ARRAYS(TOFRAY_OR);
 #undef TOFRAY_OR
 }
 /// Whether the Monte Carlo error of light that bounces is wanted.
-TOFRAY_FN bool wants_path_noise(const Setup& s, const flow::FrameView& out, Stage entry) {
+TOFRAY_INLINE bool wants_path_noise(const Setup& s, const flow::FrameView& out, Stage entry) {
   return bounces(s, entry) && (out.gt_path_noise_m != nullptr || s.bounces.rounds > 1);
 }
 /// Whether what a pixel's neighbours see is wanted.
-TOFRAY_FN bool wants_guide(const Setup& s, const flow::FrameView& out, Stage entry) {
+TOFRAY_INLINE bool wants_guide(const Setup& s, const flow::FrameView& out, Stage entry) {
   return wants_path_noise(s, out, entry) || (bounces(s, entry) && s.bounces.smooth != 0);
 }
 
-TOFRAY_FN bool wants_transient(const flow::FrameView& out) {
+TOFRAY_INLINE bool wants_transient(const flow::FrameView& out) {
   return out.transient_e_per_s != nullptr || out.transient_lost_e_per_s != nullptr;
 }
 
 /// Whether a part makes the light image.
-TOFRAY_FN bool gathers(Part part) { return part == Part::light || part == Part::bounce || part == Part::sum; }
+TOFRAY_INLINE bool gathers(Part part) { return part == Part::light || part == Part::bounce || part == Part::sum; }
 
 /// Input that stands for what is in the light image.
-TOFRAY_FN Input from_light_image(const flow::LightImage& image) {
+TOFRAY_INLINE Input from_light_image(const flow::LightImage& image) {
   Input out{};
   out.entry = Stage::raw, out.moments = image.times, out.from_image = 1;
   return out;
 }
 
 /// Puts what a step over images has of its own into the settings of its frame.
-TOFRAY_FN void take_image_step(const Step& step, Job& job) {
+TOFRAY_INLINE void take_image_step(const Step& step, Job& job) {
   step.light.all.place(job.light.values, job.light.before);
   step.light.indirect.place(job.light.indirect, job.light.indirect_before);
   if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, 1, 1, nullptr};
 }
 /// Puts what any step has of its own into the settings of its frame, those of the pass that begins with rays included.
-TOFRAY_FN void take_step(const Step& step, Setup& s, Job& job) {
+TOFRAY_INLINE void take_step(const Step& step, Setup& s, Job& job) {
   take_image_step(step, job);
   if (step.part == Part::truth && s.last_stage > Stage::power) s.last_stage = Stage::power;
   if (step.part != Part::light || step.pass != pass<FromRays>) return;
@@ -105,7 +105,7 @@ TOFRAY_FN void take_step(const Step& step, Setup& s, Job& job) {
 /// Calls run(step) for each step that follows light from surface to surface, once the direct light is at the back.
 /// @param known  no step is needed: the buffers end where they would
 template <class Run>
-TOFRAY_FN void each_bounce_step(const Setup& s, const Job& job, bool known, LightBuffers& light, const Run& run) {
+TOFRAY_INLINE void each_bounce_step(const Setup& s, const Job& job, bool known, LightBuffers& light, const Run& run) {
   const int samples = s.subpixel.count, steps = s.bounces.rounds * samples;
   const bool noise = wants_path_noise(s, job.out, Stage::trace);
   for (int i = 0; i < steps; ++i) {
@@ -179,7 +179,7 @@ void each_step_over_depth(const Setup& s, const Job& job, Stage entry, const Run
   const bool first = keeps_edges(job.filter);
   if (first) filter();
   const bool flags = each_pass_at<When::over_depth>(s, job, entry, run);
-  if (job.filter != Filter::none && !first) {
+  if (job.filter != FilterKind::none && !first) {
     filter();
   } else if (flags) {
     run(Step{pass<WriteDepth>, Part::all, 0, {}});

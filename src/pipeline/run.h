@@ -13,7 +13,7 @@
 /// or, where a pixel's light is a sum, up to the light image and on from there: which passes a frame takes is plan.h.
 ///
 /// It is the same for scenes that stand still and scenes that move, for a tile of pixels and for one, on every machine, and for who enters
-/// later with arrays of their own. What differs is a `Walk`, which knows which pixels there are and finds their light:
+/// later with arrays of their own. What differs is a `Source`, which knows which pixels there are and finds their light:
 ///
 ///     moments()                     times at which the scene is looked at: 1, or as many for each raw frame
 ///     once()                        whether light of one moment for all is kept for the first of the raw frames to which it is alike
@@ -22,7 +22,7 @@
 ///     ahead(q)                      those that come after pack q, whose memory may be fetched meanwhile; count 0: none
 ///     pack(q)                       what a pack keeps from one moment to the next
 ///     blurs, mean(q)                whether an exposure may see the scene at several times, and where the mean of their light is kept
-///     written_out                   whether stages 3 and 4 are to be a part of the walk's own code, as fast as can be, or shared with others
+///     inlined                   whether stages 3 and 4 are to be a part of the source's own code, as fast as can be, or shared with others
 ///     find_light(now, q, …)         stages 1 and 2 for one pack; false: the light of the moment before is still good
 namespace tofray::pipeline {
 
@@ -35,36 +35,37 @@ struct View {
 };
 
 /// Whether the light of a moment is asked for: without raw frames, that of the ground truth alone.
-TOFRAY_FN bool is_wanted(const Setup& s, const Job& job, const Moment& now) {
+TOFRAY_INLINE bool is_wanted(const Setup& s, const Job& job, const Moment& now) {
   return s.last_stage >= Stage::raw || now.truth || job.out.gt_phase_flow_px != nullptr;
 }
 
 /// Whether the light of a raw frame is the mean of several moments', of which this is one.
-template <class Walk>
-TOFRAY_FN bool is_averaged(const Moment& now) {
-  return Walk::blurs && now.samples > 1;
+template <class Source>
+TOFRAY_INLINE bool is_averaged(const Moment& now) {
+  return Source::blurs && now.samples > 1;
 }
 
 /// Stages 1 and 2, the pixels' own delay, and the mean over an exposure.
 /// @return whether raw frames are asked for, and their light is complete
-template <class F, class Walk>
-TOFRAY_FN bool find_light(const Setup& s, const Job& job, Walk& walk, const Moment& now, int q, const View<F>& view, Pack<F>& pack) {
-  const bool anew = walk.find_light(now, q, view.p, view.ray, view.vignetting, pack);
+template <class F, class Source>
+TOFRAY_INLINE bool find_light(const Setup& s, const Job& job, Source& source, const Moment& now, int q, const View<F>& view,
+                              PackState<F>& pack) {
+  const bool anew = source.find_light(now, q, view.p, view.ray, view.vignetting, pack);
   if (now.truth && job.gather.middle != nullptr)
     compare_sample<F>(s, job.light, job.gather.middle, view.p, job.gather.share, job.gather.first != 0);
   if (s.last_stage < Stage::raw) return false;
   if (anew && s.sensor.delay != nullptr && job.gather.on == 0)
     power::delay_by(s.phasors, wanted(s, now, pack.undisturbed), s.sensor, view.p, pack.light);
-  if (!is_averaged<Walk>(now)) return true;
+  if (!is_averaged<Source>(now)) return true;
   // Light that is the same at all times is a mean of itself, which rounding leaves a last bit beside it.
   const int end = now.whole ? now.samples : now.sample + 1;
-  for (int i = now.sample; i < end; ++i) power::blend(s.phasors, wanted(s, now, false), pack.light, i, now.samples, walk.mean(q));
+  for (int i = now.sample; i < end; ++i) power::blend(s.phasors, wanted(s, now, false), pack.light, i, now.samples, source.mean(q));
   return end == now.samples;
 }
 
 /// What a sample within the pixels adds to the light image, or all of them at once.
 template <class F>
-TOFRAY_FN void gather(const Setup& s, const Job& job, const Moment& now, bool once, const Pixels& p, const flow::Light<F>& light) {
+TOFRAY_INLINE void gather(const Setup& s, const Job& job, const Moment& now, bool once, const Pixels& p, const flow::Light<F>& light) {
   const Growing image{job.light.before, job.light.values};
   const Adding<F> how{job.gather.share, job.gather.first != 0, 1.0f, F(0.0f) < F(1.0f)};
   if (now.whole && job.light.times > 1) {
@@ -75,11 +76,11 @@ TOFRAY_FN void gather(const Setup& s, const Job& job, const Moment& now, bool on
 }
 
 /// Stages 3 and 4: raw frames of the moment, and depth after the last of them.
-template <class F, class Walk>
-TOFRAY_FN void expose(const Setup& s, const Job& job, Walk& walk, const Moment& now, int q, const View<F>& view,
-                      const flow::Light<F>& light, Pack<F>& pack) {
-  const Pixels next = walk.ahead(q);
-  if constexpr (Walk::written_out) {
+template <class F, class Source>
+TOFRAY_INLINE void expose(const Setup& s, const Job& job, Source& source, const Moment& now, int q, const View<F>& view,
+                          const flow::Light<F>& light, PackState<F>& pack) {
+  const Pixels next = source.ahead(q);
+  if constexpr (Source::inlined) {
     collect(s, job, view.p, next, now, light, pack);
   } else {
     collect_noinline(s, job, view.p, next, now, light, pack);
@@ -88,7 +89,7 @@ TOFRAY_FN void expose(const Setup& s, const Job& job, Walk& walk, const Moment& 
   fetch_depth<F>(job.out, next);
   store_overflow(s, job, view.p, pack.exposure);
   const num::Mask<F> clipped = raw::saturated(s.sensor, pack.exposure);
-  if constexpr (Walk::written_out) {
+  if constexpr (Source::inlined) {
     find_depth<F>(s, job, view.p, view.ray, pack.difference, clipped, view.vignetting);
   } else {
     find_depth_noinline<F>(s, job, view.p, view.ray, pack.difference, clipped, view.vignetting);
@@ -96,25 +97,25 @@ TOFRAY_FN void expose(const Setup& s, const Job& job, Walk& walk, const Moment& 
 }
 
 /// From rays to depth.
-template <class F, class Walk>
-TOFRAY_FN void run_pipeline(const Setup& s, const Job& job, Walk& walk) {
-  const int moments = walk.moments();
+template <class F, class Source>
+TOFRAY_INLINE void run_pipeline(const Setup& s, const Job& job, Source& source) {
+  const int moments = source.moments();
   for (int moment = 0; moment < moments; ++moment) {
-    const Moment now = moment_of(s, moment, moments, Walk::blurs);
+    const Moment now = moment_of(s, moment, moments, Source::blurs);
     if (!is_wanted(s, job, now)) continue;
-    walk.go_to(now);
-    for (int q = 0; q < walk.packs(); ++q) {
-      const Pixels p = walk.pixels(q);
+    source.go_to(now);
+    for (int q = 0; q < source.packs(); ++q) {
+      const Pixels p = source.pixels(q);
       if (p.count == 0) continue;
-      Pack<F>& pack = walk.pack(q);
+      PackState<F>& pack = source.pack(q);
       const View<F> view{p, camera::ray<F>(s.lens, p), camera::vignetting<F>(s.lens, p)};
       if (moment == 0 || s.last_stage < Stage::raw) begin(s, job, p, pack);
-      if (!find_light(s, job, walk, now, q, view, pack)) continue;  // stages 1 and 2
-      const flow::Light<F>& light = is_averaged<Walk>(now) ? walk.mean(q) : pack.light;
+      if (!find_light(s, job, source, now, q, view, pack)) continue;  // stages 1 and 2
+      const flow::Light<F>& light = is_averaged<Source>(now) ? source.mean(q) : pack.light;
       if (job.gather.on != 0) {
-        gather<F>(s, job, now, walk.once(), p, light);
+        gather<F>(s, job, now, source.once(), p, light);
       } else {
-        expose(s, job, walk, now, q, view, light, pack);  // stages 3 and 4
+        expose(s, job, source, now, q, view, light, pack);  // stages 3 and 4
       }
     }
   }

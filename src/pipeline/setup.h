@@ -12,7 +12,7 @@
 
 namespace tofray::pipeline {
 
-/// Light that goes from surface to surface before it comes back.                                       [theory: eq. 7.6]
+/// Light that goes from surface to surface before it comes back.                                       [theory: bounces]
 struct BounceView {
   std::int32_t most;     ///< surfaces that a path meets beyond the first one; 0: light comes straight back
   std::int32_t samples;  ///< paths of each pixel in the first round, at least
@@ -23,7 +23,7 @@ struct BounceView {
   bool operator==(const BounceView&) const = default;
 };
 
-/// Histograms of light by the length of its path.                                                      [theory: eq. 7.10]
+/// Histograms of light by the length of its path.                                                     [theory: transient]
 struct TransientView {
   std::int32_t bins;  ///< 0: there are none
   float first;        ///< where the first one begins [m]
@@ -56,9 +56,9 @@ struct Setup {
   bool operator==(const Setup&) const = default;
 };
 
-enum class Filter : std::int32_t { none, gaussian, median, bilateral, adaptive };
+enum class FilterKind : std::int32_t { none, gaussian, median, bilateral, adaptive };
 /// Whether it leaves edges as they are: then the check for flying pixels looks at what it left.
-TOFRAY_FN bool keeps_edges(Filter filter) { return filter == Filter::bilateral || filter == Filter::adaptive; }
+TOFRAY_INLINE bool keeps_edges(FilterKind filter) { return filter == FilterKind::bilateral || filter == FilterKind::adaptive; }
 
 /// Whether stages 1 and 2 end in the light image, and what they add to it.
 struct Gather {
@@ -86,7 +86,7 @@ struct Job {
   /// Images [height][width]: filtered range, its noise, what wells had no room for, how likely ranges are on the right cycle, as far as somebody
   /// asks; then the draws of noisy lines.
   float* scratch;
-  Filter filter;
+  FilterKind filter;
   std::int32_t filter_radius;
   float filter_weights[33];  ///< Gaussian, [0] the middle
   float filter_factor;       ///< square of how many σ neighbours may be off
@@ -100,22 +100,22 @@ using flow::tile_height;
 using flow::tile_width;
 
 /// What the wells of each pixel had no room for [e⁻].
-TOFRAY_FN float* overflow_in(const Setup& s, const Job& job) { return job.scratch + 2 * s.lens.width * s.lens.height; }
+TOFRAY_INLINE float* overflow_in(const Setup& s, const Job& job) { return job.scratch + 2 * s.lens.width * s.lens.height; }
 /// Number of images that `scratch` has room for.
-TOFRAY_FN int scratch_images(const Setup& s, Filter filter) {
-  const int before = s.sensor.blooms != 0 ? 3 : filter != Filter::none ? 2 : 0;
-  return before + (filter != Filter::none ? 1 : 0);
+TOFRAY_INLINE int scratch_images(const Setup& s, FilterKind filter) {
+  const int before = s.sensor.blooms != 0 ? 3 : filter != FilterKind::none ? 2 : 0;
+  return before + (filter != FilterKind::none ? 1 : 0);
 }
 /// How likely ranges are on the right cycle, for the filter that is on: the last image.
-TOFRAY_FN float* trust_in(const Setup& s, const Job& job) {
+TOFRAY_INLINE float* trust_in(const Setup& s, const Job& job) {
   return job.scratch + (scratch_images(s, job.filter) - 1) * s.lens.width * s.lens.height;
 }
 /// Number of floats in `scratch`, images and draws of noisy lines.
-TOFRAY_FN std::int64_t scratch_floats(const Setup& s, Filter filter) {
+TOFRAY_INLINE std::int64_t scratch_floats(const Setup& s, FilterKind filter) {
   return std::int64_t{scratch_images(s, filter)} * s.lens.width * s.lens.height + effect::LineNoise::line_draws(s.sensor);
 }
 /// Draws of the sensor's lines, [raw_frames][width + height].
-TOFRAY_FN float* line_normals_in(const Setup& s, const Job& job) {
+TOFRAY_INLINE float* line_normals_in(const Setup& s, const Job& job) {
   return job.scratch + scratch_images(s, job.filter) * s.lens.width * s.lens.height;
 }
 
@@ -123,9 +123,11 @@ constexpr int rows_per_band = 8;  ///< of an image, for one worker at a time in 
 
 /// Whether light is followed from surface to surface.
 /// @param entry  the first stage that is computed
-TOFRAY_FN bool bounces(const Setup& s, Stage entry) { return s.bounces.most > 0 && entry == Stage::trace && s.last_stage >= Stage::raw; }
+TOFRAY_INLINE bool bounces(const Setup& s, Stage entry) {
+  return s.bounces.most > 0 && entry == Stage::trace && s.last_stage >= Stage::raw;
+}
 
-TOFRAY_FN int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
-TOFRAY_FN int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }
+TOFRAY_INLINE int tiles_across(const camera::LensView& lens) { return (lens.width + tile_width - 1) / tile_width; }
+TOFRAY_INLINE int tile_count(const camera::LensView& lens) { return tiles_across(lens) * ((lens.height + tile_height - 1) / tile_height); }
 
 }  // namespace tofray::pipeline

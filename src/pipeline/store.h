@@ -10,25 +10,25 @@ namespace tofray::pipeline {
 using flow::Pixels;
 
 template <class F>
-TOFRAY_FN F nan() {
+TOFRAY_INLINE F nan() {
   return num::from_bits(num::Uint<F>(0x7fc00000u));
 }
 
 template <class F>
-TOFRAY_FN void store(float* to, const Pixels& p, F value) {
+TOFRAY_INLINE void store(float* to, const Pixels& p, F value) {
   if (to != nullptr) num::store(to + p.index, value, p.count);
 }
 template <class F>
-TOFRAY_FN void store2(float* to, const Pixels& p, F x, F y) {
+TOFRAY_INLINE void store2(float* to, const Pixels& p, F x, F y) {
   if (to != nullptr) num::store2(to + 2 * p.index, x, y, p.count);
 }
 template <class F>
-TOFRAY_FN void store3(float* to, const Pixels& p, F x, F y, F z) {
+TOFRAY_INLINE void store3(float* to, const Pixels& p, F x, F y, F z) {
   if (to != nullptr) num::store3(to + 3 * p.index, x, y, z, p.count);
 }
 
 template <class F>
-TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps, TapStores how) {
+TOFRAY_INLINE void store_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, const flow::Taps<F>& taps, TapStores how) {
   const Pixels at{p.index + k * pixels, p.count};
   if constexpr (num::can_store_past<F>) {
     if (how == TapStores::past_caches) {
@@ -51,15 +51,15 @@ TOFRAY_FN void store_taps(int pixels, const flow::FrameView& out, const Pixels& 
 /// Says early where the taps, and the depth, of some pixels will be written: a frame is larger than the near caches, and a store that misses
 /// them waits for its line.
 template <class F>
-TOFRAY_FN void fetch_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, TapStores how) {
+TOFRAY_INLINE void fetch_taps(int pixels, const flow::FrameView& out, const Pixels& p, int k, TapStores how) {
   if (p.count == 0 || how == TapStores::past_caches) return;
   const std::int32_t at = p.index + k * pixels;
   num::fetch_to<F>(out.tap_a, at, p.count), num::fetch_to<F>(out.tap_b, at, p.count), num::fetch_to<F>(out.raw, at, p.count);
 }
 template <class F>
-TOFRAY_FN void fetch_depth(const flow::FrameView& out, const Pixels& p) {
+TOFRAY_INLINE void fetch_depth(const flow::FrameView& out, const Pixels& p) {
   if (p.count == 0) return;
-  const auto fetch = [&](const auto* to) __attribute__((always_inline)) { num::fetch_to<F>(to, p.index, p.count); };
+  const auto fetch = [&](const auto* to) TOFRAY_LAMBDA { num::fetch_to<F>(to, p.index, p.count); };
   fetch(out.z_m), fetch(out.range_m), fetch(out.amplitude_e), fetch(out.ambient_e), fetch(out.noise_m), fetch(out.confidence),
       fetch(out.flags);
   num::fetch_to<F>(out.points_m, 3 * p.index, 3 * p.count);
@@ -68,9 +68,9 @@ TOFRAY_FN void fetch_depth(const flow::FrameView& out, const Pixels& p) {
 /// What the surface shows: the paper's matrices.
 /// @param material  says the number of its material, where that is wanted
 template <class F, class Material>
-TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r,
-                           Material material) {
-  const auto value = [&](F a) __attribute__((always_inline)) { return num::select(s.found, a, nan<F>()); };
+TOFRAY_INLINE void store_truth(const flow::FrameView& out, const Pixels& p, const flow::Surface<F>& s, const flow::Radiometry<F>& r,
+                               Material material) {
+  const auto value = [&](F a) TOFRAY_LAMBDA { return num::select(s.found, a, nan<F>()); };
   store(out.gt_range_m, p, value(s.range));
   store(out.gt_z_m, p, value(s.z));
   store(out.gt_reflectivity, p, value(s.finish.reflectivity));
@@ -85,8 +85,8 @@ TOFRAY_FN void store_truth(const flow::FrameView& out, const Pixels& p, const fl
 
 /// Point, z and confidence of a valid range; NaN and 0 elsewhere.
 template <class F>
-TOFRAY_FN void store_range(const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, num::Int<F> confidence,
-                           num::Int<F> flags) {
+TOFRAY_INLINE void store_range(const flow::FrameView& out, const Pixels& p, const flow::Ray<F>& ray, F range, num::Int<F> confidence,
+                               num::Int<F> flags) {
   const auto valid = (flags & num::Int<F>(depth::invalid)) == num::Int<F>(0);
   const F z = num::select(valid, range * ray.inverse_length, nan<F>());
   store(out.z_m, p, z);

@@ -22,7 +22,7 @@ struct MeshShade {
 
 /// Pixels whose hit is another.
 template <class F>
-TOFRAY_APART void put_changed(const flow::Hit<F>* before, const flow::Hit<F>* now, float* changed) {
+TOFRAY_NOINLINE void put_changed(const flow::Hit<F>* before, const flow::Hit<F>* now, float* changed) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const auto other = (before[q].w != now[q].w) | (before[q].facet != now[q].facet);
     shape::store_all(changed + at, num::select(other, F(1.0f), F(0.0f)));
@@ -30,13 +30,13 @@ TOFRAY_APART void put_changed(const flow::Hit<F>* before, const flow::Hit<F>* no
 }
 
 template <class F>
-TOFRAY_FN num::Mask<F> in_use(const Pixels& p) {
+TOFRAY_INLINE num::Mask<F> in_use(const Pixels& p) {
   return num::lane_index<F>() < num::Int<F>(p.count);
 }
 
 /// @param tile  pixels(q) are those of its pack number q
 template <class F, class Tile>
-TOFRAY_APART void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, TilePoints& points) {
+TOFRAY_NOINLINE void put_points(const Setup& s, const Tile& tile, const flow::Hit<F>* hits, TilePoints& points) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const Pixels p = tile.pixels(q);
     flow::Place<F> surface{};
@@ -54,7 +54,7 @@ TOFRAY_APART void put_points(const Setup& s, const Tile& tile, const flow::Hit<F
 
 /// The nearer of the hits and the meshes.
 template <class F, class Tile>
-TOFRAY_APART void see_meshes(const Setup& s, const Tile& tile, const trace::Culled& culled, trace::TileRays& rays, flow::Hit<F>* hits) {
+TOFRAY_NOINLINE void see_meshes(const Setup& s, const Tile& tile, const trace::Culled& culled, trace::TileRays& rays, flow::Hit<F>* hits) {
   for (int at = 0, q = 0; at < trace::TileRays::count; at += num::lanes<F>, ++q) {
     const Pixels p = tile.pixels(q);
     if (p.count == 0) continue;
@@ -62,7 +62,7 @@ TOFRAY_APART void see_meshes(const Setup& s, const Tile& tile, const trace::Cull
     trace::put(ray.x, ray.y, ray.z, at, rays);
   }
   trace::nearest_meshes(
-      culled, rays, [&](int q) __attribute__((always_inline)) { return in_use<F>(tile.pixels(q)); }, hits);
+      culled, rays, [&](int q) TOFRAY_LAMBDA { return in_use<F>(tile.pixels(q)); }, hits);
 }
 
 /// What was found before, of pixels that have not changed since.
@@ -73,13 +73,13 @@ struct KnownShades {
 
 /// The shade of one light. @param put_ray  (position, range, lanes where there is a ray, number of the first)
 template <class F, class Forms, class PutRay>
-TOFRAY_FN void find_shade(const Forms& forms, const TilePoints& points, const MeshShade* known, const float* changed, trace::TileRays& rays,
-                          MeshShade& shade, const PutRay& put_ray) {
+TOFRAY_INLINE void find_shade(const Forms& forms, const TilePoints& points, const MeshShade* known, const float* changed,
+                              trace::TileRays& rays, MeshShade& shade, const PutRay& put_ray) {
   const bool keeps = known != nullptr && known->any;
   shade.any = keeps || trace::any_mesh(forms);
   if (!shade.any) return;
   for (int at = 0; at < trace::TileRays::count; at += num::lanes<F>) {
-    const auto load = [&](const float* from) __attribute__((always_inline)) { return shape::load_all<F>(from + at); };
+    const auto load = [&](const float* from) TOFRAY_LAMBDA { return shape::load_all<F>(from + at); };
     auto wanted = load(points.found) > F(0.0f);
     if (known != nullptr) wanted = wanted & (load(changed) > F(0.0f));
     shape::store_all(shade.dark + at, keeps ? num::select(load(changed) > F(0.0f), F(0.0f), load(known->dark)) : F(0.0f));
@@ -94,12 +94,12 @@ TOFRAY_FN void find_shade(const Forms& forms, const TilePoints& points, const Me
 /// @param known       or null
 /// @param shades      out: [light] the sun comes last
 template <class F>
-TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, const trace::CulledAlong& sun, const TilePoints& points,
-                              const KnownShades* known, trace::TileRays& rays, MeshShade* shades) {
-  const auto before = [&](int l) __attribute__((always_inline)) { return known != nullptr ? known->of + l : nullptr; };
+TOFRAY_NOINLINE void find_shades(const Setup& s, const trace::Culled* from_light, const trace::CulledAlong& sun, const TilePoints& points,
+                                 const KnownShades* known, trace::TileRays& rays, MeshShade* shades) {
+  const auto before = [&](int l) TOFRAY_LAMBDA { return known != nullptr ? known->of + l : nullptr; };
   const float* changed = known != nullptr ? known->changed : nullptr;
   for (int l = 0; l < s.scene.lights; ++l) {
-    const auto put_ray = [&](F x, F y, F z, F, num::Mask<F> wanted, int at) __attribute__((always_inline)) {
+    const auto put_ray = [&](F x, F y, F z, F, num::Mask<F> wanted, int at) TOFRAY_LAMBDA {
       flow::Place<F> surface;
       surface.x = x, surface.y = y, surface.z = z;
       const flow::Ray<F> ray = power::light_ray(s.lights[l], surface);
@@ -111,7 +111,7 @@ TOFRAY_APART void find_shades(const Setup& s, const trace::Culled* from_light, c
   constexpr int last = flow::max_lights;
   shades[last].any = false;
   if (s.power.ambient != camera::AmbientLight::directional) return;
-  const auto put_ray = [&](F x, F y, F z, F range, num::Mask<F> wanted, int at) __attribute__((always_inline)) {
+  const auto put_ray = [&](F x, F y, F z, F range, num::Mask<F> wanted, int at) TOFRAY_LAMBDA {
     trace::put(x, y, z, at, rays);
     trace::put_ends(F(trace::shadow_margin) * range, F(3e38f), wanted, at, rays);
   };

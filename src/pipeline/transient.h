@@ -3,7 +3,7 @@
 #pragma once
 #include "pipeline/bounce.h"
 
-/// Light by the length of its path, as a histogram for each pixel.                                        [theory: eq. 7.10]
+/// Light by the length of its path, as a histogram for each pixel.                                       [theory: transient]
 ///
 /// A pass of its own, which frames without histograms do not have. It goes the ways that the light of stages 1 and 2 goes, by the same
 /// functions: to what each pixel sees, straight from the lights, and from surface to surface with the same random numbers.
@@ -19,7 +19,7 @@ struct Histograms {
 };
 
 template <class F>
-TOFRAY_FN void clear(const Histograms& to) {
+TOFRAY_INLINE void clear(const Histograms& to) {
   for (int k = 0; k < to.view.bins && to.values != nullptr; ++k) num::store(to.values + k * to.pixels + to.p.index, F(0.0f), to.p.count);
   if (to.lost != nullptr) num::store(to.lost + to.p.index, F(0.0f), to.p.count);
 }
@@ -27,7 +27,7 @@ TOFRAY_FN void clear(const Histograms& to) {
 /// Adds light of rate S and length ℓ: with x = (ℓ − first)/width and k = ⌊x + ½⌋, the share x + ½ − k of it goes to bin k and the rest to
 /// bin k − 1; what the first or the last one would share with a bin that is not there, it keeps.
 template <class F>
-TOFRAY_FN void add_light(const Histograms& to, F rate, F length) {
+TOFRAY_INLINE void add_light(const Histograms& to, F rate, F length) {
   if (!num::any(rate > F(0.0f))) return;
   const F x = (length - F(to.view.first)) * F(to.view.per_metre), bins = F(static_cast<float>(to.view.bins));
   const auto inside = (x >= F(0.0f)) & (x < bins);
@@ -55,33 +55,30 @@ TOFRAY_FN void add_light(const Histograms& to, F rate, F length) {
 
 /// Light that comes straight back from what the pixels see.
 template <class F>
-TOFRAY_FN void add_direct(const Setup& s, const camera::LensView& lens, int moment, float share, const Histograms& to) {
+TOFRAY_INLINE void add_direct(const Setup& s, const camera::LensView& lens, int moment, float share, const Histograms& to) {
   const flow::Ray<F> ray = camera::ray<F>(lens, to.p);
   const F vignetting = camera::vignetting<F>(lens, to.p);
   flow::Hit<F> hit = trace::nearest(trace::Uncut{s.scene.camera_still()}, ray, flow::no_hit<F>());
   if (s.scene.moments > 0) hit = trace::nearest(trace::Uncut{s.scene.camera_moving(moment)}, ray, hit);
   const flow::Surface<F> surface = surface_seen(s, lens, ray, hit, vignetting);
-  each_light<F>(
-      s, moment, surface, ray, surface.range, vignetting, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) {
-        add_light<F>(to, path.rate * F(share), path.length);
-      });
+  each_light<F>(s, moment, surface, ray, surface.range, vignetting,
+                [&](int, const flow::Path<F>& path) TOFRAY_LAMBDA { add_light<F>(to, path.rate * F(share), path.length); });
 }
 
 /// Light that has met several surfaces, by as many paths as the light image has.
 /// @param sample  which one within the pixels
 template <class F>
-TOFRAY_FN void add_bounced(const Setup& s, const flow::LightImage& image, const camera::LensView& lens, int moment, int sample, float share,
-                           const Histograms& to) {
+TOFRAY_INLINE void add_bounced(const Setup& s, const flow::LightImage& image, const camera::LensView& lens, int moment, int sample,
+                               float share, const Histograms& to) {
   const flow::Ray<F> ray = camera::ray<F>(lens, to.p);
   const F vignetting = camera::vignetting<F>(lens, to.p), per = ray.inverse_length, area = F(lens.pixel_area) * per * per * per;
   Vertex<F> first = first_vertex<F>(s, moment, ray, area, vignetting);
   const num::Mask<F> found = first.at.found;
   const int rounds = image.goal != nullptr ? s.bounces.rounds : 1;
   const F each = F(share * static_cast<float>(s.subpixel.count)) / num::to_float(paths_known<F>(s, image, rounds - 1, to.p));
-  const auto meet = [&](int, const Vertex<F>& v, F weight) __attribute__((always_inline)) {
-    each_light<F>(
-        s, moment, v.at, ray_to(v), v.step,
-        weight, [&](int, const flow::Path<F>& path) __attribute__((always_inline)) { add_light<F>(to, path.rate * each, path.length); });
+  const auto meet = [&](int, const Vertex<F>& v, F weight) TOFRAY_LAMBDA {
+    each_light<F>(s, moment, v.at, ray_to(v), v.step, weight,
+                  [&](int, const flow::Path<F>& path) TOFRAY_LAMBDA { add_light<F>(to, path.rate * each, path.length); });
   };
   for (int round = 0; round < rounds; ++round) {
     const PathsOfStep paths = paths_of_step(s, round * s.subpixel.count + sample);
@@ -94,7 +91,7 @@ TOFRAY_FN void add_bounced(const Setup& s, const flow::LightImage& image, const 
 
 /// The histograms of a pack, of the light at the time of the ground truth.
 template <class F>
-TOFRAY_FN void find_transient(const Setup& s, const Job& job, const Pixels& p) {
+TOFRAY_INLINE void find_transient(const Setup& s, const Job& job, const Pixels& p) {
   const Histograms to{s.transient, job.out.transient_e_per_s, job.out.transient_lost_e_per_s, std::int64_t{s.lens.width} * s.lens.height,
                       p};
   const int moment = truth_moment(s);

@@ -3,7 +3,7 @@
 #pragma once
 #include "camera/light/view.h"
 
-/// Radiant intensity of a light source: I(θx, θy) = P·î, ∫î dω = 1.                                    [theory: eq. 2.1]
+/// Radiant intensity of a light source: I(θx, θy) = P·î, ∫î dω = 1.                          [theory: radiant-intensity]
 namespace tofray::power {
 
 /// Angles θx = θ·cos ψ = (θ/sin θ)·x, θy = θ·sin ψ of a direction (f-theta) [rad].
@@ -12,7 +12,7 @@ struct Angles {
   F x, y;
 };
 template <class F>
-TOFRAY_FN Angles<F> f_theta(F x, F y, F z) {
+TOFRAY_INLINE Angles<F> f_theta(F x, F y, F z) {
   constexpr float turn = 6.28318531f;
   const F square = num::fma(x, x, y * y);
   const auto near = (z > F(0.0f)) & (square <= z * z);  // θ <= π/4: where a light is aimed
@@ -27,7 +27,7 @@ TOFRAY_FN Angles<F> f_theta(F x, F y, F z) {
 
 /// Half its peak at the edges of a rectangle, exp(−ln2·(u⁸ + v⁸)); 0 beyond the table's range.
 template <class F>
-TOFRAY_FN F flat_top_intensity(const camera::PatternView& p, const Angles<F>& theta) {
+TOFRAY_INLINE F flat_top_intensity(const camera::PatternView& p, const Angles<F>& theta) {
   const F u = theta.x * F(p.per_half_width), v = theta.y * F(p.per_half_height);
   const F u2 = u * u, v2 = v * v, u4 = u2 * u2, v4 = v2 * v2;
   return F(p.peak) * num::exp2(-num::fma(u4, u4, v4 * v4));
@@ -35,7 +35,7 @@ TOFRAY_FN F flat_top_intensity(const camera::PatternView& p, const Angles<F>& th
 
 /// Bilinear between cell centres, clamped in the outer half cell.
 template <class F>
-TOFRAY_FN F table_intensity(const camera::PatternView& p, const Angles<F>& theta) {
+TOFRAY_INLINE F table_intensity(const camera::PatternView& p, const Angles<F>& theta) {
   const F last_x = F(static_cast<float>(p.columns - 1)), last_y = F(static_cast<float>(p.rows - 1));
   const F u = num::min(num::max(num::fma(theta.x + F(p.half_range_x), F(p.per_rad_x), F(-0.5f)), F(0.0f)), last_x);
   const F v = num::min(num::max(num::fma(theta.y + F(p.half_range_y), F(p.per_rad_y), F(-0.5f)), F(0.0f)), last_y);
@@ -50,7 +50,7 @@ TOFRAY_FN F table_intensity(const camera::PatternView& p, const Angles<F>& theta
 
 /// I [W/sr] along the direction (x, y, z) in the camera frame, of any length.
 template <class F>
-TOFRAY_FN F intensity(const camera::LightView& light, F x, F y, F z, F inverse_length) {
+TOFRAY_INLINE F intensity(const camera::LightView& light, F x, F y, F z, F inverse_length) {
   F u = x, v = y, w = z;
   if (light.turned != 0) {
     const float(*m)[3] = light.rotation;

@@ -7,9 +7,9 @@
 namespace tofray::power {
 
 /// L = ρ·I·cosθ/(π r²) with the table looked up from the wrong side: the direction is that from surface to light, the azimuth loses its
-/// quadrant, no origin is added to the indices, and those outside the table count as dark.            [theory: eq. 2.11]
+/// quadrant, no origin is added to the indices, and those outside the table count as dark.       [theory: paper-formula]
 template <class F>
-TOFRAY_FN F paper_radiance(const camera::LightView& light, const flow::Surface<F>& p, num::Mask<F> lit) {
+TOFRAY_INLINE F paper_radiance(const camera::LightView& light, const flow::Surface<F>& p, num::Mask<F> lit) {
   const camera::PatternView& table = light.pattern;
   const F x = F(light.position[0]) - p.x, y = F(light.position[1]) - p.y, z = F(light.position[2]) - p.z;
   const F square = num::fma(x, x, num::fma(y, y, z * z));

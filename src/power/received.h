@@ -16,22 +16,23 @@ using num::Mask;
 
 /// The ray from a light to the surface point, d = P − L.
 template <class F>
-TOFRAY_FN Ray<F> light_ray(const camera::LightView& light, const flow::Place<F>& p) {
+TOFRAY_INLINE Ray<F> light_ray(const camera::LightView& light, const flow::Place<F>& p) {
   return flow::make_ray(p.x - F(light.position[0]), p.y - F(light.position[1]), p.z - F(light.position[2]));
 }
 
 /// Whether light from there arrives on the side of the facet that is seen: no normal of a corner or of a picture lets light through it.
 template <class F>
-TOFRAY_FN Mask<F> before_facet(const Surface<F>& p, F x, F y, F z) {
+TOFRAY_INLINE Mask<F> before_facet(const Surface<F>& p, F x, F y, F z) {
   if (!p.leans) return F(0.0f) < F(1.0f);  // as the cosine says
   return num::fma(p.flat.x, x, num::fma(p.flat.y, y, p.flat.z * z)) > F(0.0f);
 }
 
-/// One light source: E_s = I·max(0, n·l)·V/r_L²  [eq. 2.2], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)  [eq. 2.5–2.7],
-/// ℓ = |P − L| + |P|  [eq. 2.8]. What the truth shows of it is added to `sum`.
+/// One light source: E_s = I·max(0, n·l)·V/r_L²  [theory: irradiance], L = f_r·E_s, S/t = L·(π T pitch² FF/4N²)·vignetting·λQE/(hc)
+/// [theory: image-irradiance, pixel-power, signal-electrons], ℓ = |P − L| + |P|  [theory: path-length]. What the truth shows of it is added
+/// to `sum`.
 template <class F>
-TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray,
-                           const Ray<F>& from_light, Mask<F> dark, F vignetting, Radiometry<F>& sum) {
+TOFRAY_INLINE Path<F> received(const camera::PowerView& s, const camera::LightView& light, const Surface<F>& p, const Ray<F>& ray,
+                               const Ray<F>& from_light, Mask<F> dark, F vignetting, Radiometry<F>& sum) {
   const F per_distance = from_light.inverse_length, distance = from_light.square * per_distance;
   const F cos_light = -num::fma(p.nx, from_light.x, num::fma(p.ny, from_light.y, p.nz * from_light.z)) * per_distance;
   const auto lit = p.found & (!dark) & (cos_light > F(0.0f)) & before_facet(p, -from_light.x, -from_light.y, -from_light.z);
@@ -40,7 +41,7 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
   // both directions point from the surface: to the light −from_light/r_L, to the camera −ray/|ray|
   const F towards = num::fma(ray.x, from_light.x, num::fma(ray.y, from_light.y, ray.z * from_light.z));
   const F cos_between = towards * per_distance * ray.inverse_length;
-  const auto directions = [&]() __attribute__((always_inline)) {
+  const auto directions = [&]() TOFRAY_LAMBDA {
     const F per_range = ray.inverse_length;
     return brdf::Directions<F>{{p.nx, p.ny, p.nz},
                                {-from_light.x * per_distance, -from_light.y * per_distance, -from_light.z * per_distance},
@@ -59,10 +60,10 @@ TOFRAY_FN Path<F> received(const camera::PowerView& s, const camera::LightView& 
 }
 
 /// Electrons per second from ambient light, both taps together: ρ·E_B/π, through lens and pixel; of light from everywhere ρ is the albedo at
-/// the view.                                                                                                   [theory: eq. 2.10]
+/// the view.                                                                                              [theory: ambient-light]
 /// @param sun  unit vector toward it
 template <class F>
-TOFRAY_FN F ambient_rate(const camera::PowerView& s, const float* sun, const Surface<F>& p, Mask<F> dark, F vignetting) {
+TOFRAY_INLINE F ambient_rate(const camera::PowerView& s, const float* sun, const Surface<F>& p, Mask<F> dark, F vignetting) {
   const bool directional = s.ambient == camera::AmbientLight::directional;
   F rate = F(s.ambient_rate) * (directional ? p.finish.reflectivity : brdf::albedo(p.finish, p.cos_view)) * vignetting;
   if (directional) {

@@ -4,7 +4,7 @@
 #include "raw/merged_noise.h"
 #include "raw/poisson.h"
 
-/// Stage 3: what the sensor collects in one raw frame.                                                  [theory: eq. 3.6]
+/// Stage 3: what the sensor collects in one raw frame.                                             [theory: charge-order]
 namespace tofray::raw {
 
 using effect::Chain;
@@ -18,13 +18,13 @@ using effect::read_out;
 using flow::Taps;
 
 template <class F>
-TOFRAY_FN F pattern(const float* map, const flow::Pixels& p, float otherwise) {
+TOFRAY_INLINE F pattern(const float* map, const flow::Pixels& p, float otherwise) {
   return map != nullptr ? num::load<F>(map + p.index, p.count) : F(otherwise);
 }
 
 /// @param line_normals  as effect::LineNoise draws them, where it does
 template <class F>
-TOFRAY_FN Exposure<F> start(const effect::SensorView& s, const flow::Pixels& p, const float* line_normals) {
+TOFRAY_INLINE Exposure<F> start(const effect::SensorView& s, const flow::Pixels& p, const float* line_normals) {
   Exposure<F> e;
   e.pixel = num::Int<F>(p.index) + num::lane_index<F>();
   e.lines = effect::LineNoise::lines_through(s, p, line_normals);
@@ -38,7 +38,7 @@ TOFRAY_FN Exposure<F> start(const effect::SensorView& s, const flow::Pixels& p, 
 /// Notes how far a lit raw frame went.
 /// @param most  charge of the tap that holds more
 template <class F>
-TOFRAY_FN void watch(const effect::SensorView& s, const effect::RawFrameView& frame, F most, const Taps<F>& taps, Exposure<F>& e) {
+TOFRAY_INLINE void watch(const effect::SensorView& s, const effect::RawFrameView& frame, F most, const Taps<F>& taps, Exposure<F>& e) {
   if (frame.lit == 0) return;
   e.most_charge = num::max(e.most_charge, most);
   e.widest_level = num::max(e.widest_level, num::abs(taps.level - F(s.valid_middle)));
@@ -46,7 +46,7 @@ TOFRAY_FN void watch(const effect::SensorView& s, const effect::RawFrameView& fr
 
 /// In a lit raw frame a tap clipped, or a code left the valid range: before the ADC held it to its ends, which may be valid codes.
 template <class F>
-TOFRAY_FN Mask<F> saturated(const effect::SensorView& s, const Exposure<F>& e) {
+TOFRAY_INLINE Mask<F> saturated(const effect::SensorView& s, const Exposure<F>& e) {
   return (e.most_charge >= F(s.full_well)) | (e.widest_level > F(s.valid_half));
 }
 
@@ -57,8 +57,8 @@ TOFRAY_FN Mask<F> saturated(const effect::SensorView& s, const Exposure<F>& e) {
 /// @param otherwise     A−B of the taps
 /// \tparam plain        as of expose
 template <bool plain, class F>
-TOFRAY_FN F known_difference(const effect::SensorView& s, const effect::RawFrameView& frame, F common, F rate, F most, const Exposure<F>& e,
-                             F otherwise) {
+TOFRAY_INLINE F known_difference(const effect::SensorView& s, const effect::RawFrameView& frame, F common, F rate, F most,
+                                 const Exposure<F>& e, F otherwise) {
   if (!plain && s.read.cell != nullptr) return otherwise;
   const auto whole = (most < F(s.full_well)) & (num::abs(rate) <= common);
   F difference = rate * F(frame.integration_time) * e.gain_a;
@@ -66,25 +66,26 @@ TOFRAY_FN F known_difference(const effect::SensorView& s, const effect::RawFrame
   return num::select(whole, difference, otherwise);
 }
 
-/// PRNU is of light alone: dark charge comes as if there were none.                                          [theory: eq. 3.6]
+/// PRNU is of light alone: dark charge comes as if there were none.                                     [theory: charge-order]
 template <class F>
-TOFRAY_FN void keep_dark_charge(const effect::SensorView& s, const effect::RawFrameView& frame, const Exposure<F>& e, Means<F>& charge) {
-  const Means<F> less = effect::TapMismatch::dark_less_in_gain(s, frame, e);
+TOFRAY_INLINE void keep_dark_charge(const effect::SensorView& s, const effect::RawFrameView& frame, const Exposure<F>& e,
+                                    TapPair<F>& charge) {
+  const TapPair<F> less = effect::TapMismatch::dark_less_in_gain(s, frame, e);
   charge.a = num::max(charge.a + less.a, F(0.0f)), charge.b = num::max(charge.b + less.b, F(0.0f));
 }
 
 /// (Light × (1 + PRNU) + dark charge) × (1 ± g/2), as expected in both taps; and A−B per second of the light alone.
 template <class F>
 struct Expected {
-  Means<F> charge;
+  TapPair<F> charge;
   effect::Rates<F> rates;
 };
 /// @param light  as this pixel sees it, its own delay included
 /// @param orders of the light's phasors
 /// \tparam plain true: the sensor has none of its effects, and there is no code for them
 template <bool plain, class F>
-TOFRAY_FN Expected<F> expected(const effect::SensorView& s, const effect::RawFrameView& frame, const Light<F>& light, int orders,
-                               const Exposure<F>& e) {
+TOFRAY_INLINE Expected<F> expected(const effect::SensorView& s, const effect::RawFrameView& frame, const Light<F>& light, int orders,
+                                   const Exposure<F>& e) {
   Expected<F> out;
   out.rates = {light.ambient_rate, frame.lit != 0 ? difference_rate(frame, orders, light) : F(0.0f)};
   if constexpr (!plain) effect::change_rates(Effects{}, frame, orders, light, out.rates);
@@ -94,9 +95,10 @@ TOFRAY_FN Expected<F> expected(const effect::SensorView& s, const effect::RawFra
   return out;
 }
 
-/// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.     [theory: eq. 3.35]
+/// What the ADC would say without noise, before it rounds: the level of the expected charge, within the codes' range.
+///                                                                                                                  [theory: noiseless-raw]
 template <class F>
-TOFRAY_FN F level_without_noise(const effect::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
+TOFRAY_INLINE F level_without_noise(const effect::SensorView& s, int k, const Light<F>& light, int orders, const Exposure<F>& e) {
   Chain<F> chain{expected<false>(s, s.frame[k], light, orders, e).charge, e.offset};
   effect::change_charge<false>(Effects{}, s, s.frame[k], k, {0, 0}, e, chain);
   effect::change_reading(Effects{}, s, chain.charge);
@@ -109,7 +111,7 @@ TOFRAY_FN F level_without_noise(const effect::SensorView& s, int k, const Light<
 /// @param light, orders  as of expected
 /// \tparam plain         likewise
 template <bool plain, class F>
-TOFRAY_FN Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
+TOFRAY_INLINE Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   const effect::RawFrameView frame = s.frame[k];
   const Expected<F> mean = expected<plain>(s, frame, light, orders, e);
   const F rate = mean.rates.difference, ambient_rate = mean.rates.ambient;
@@ -123,16 +125,15 @@ TOFRAY_FN Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& lig
   const F most = num::max(chain.charge.a, chain.charge.b);
   if constexpr (!plain) effect::change_reading(Effects{}, s, chain.charge);
   // (Without noise there is none of lines either: the codes' reach is that of the offset alone.)
-  const Taps<F> taps = read_out(
-      s, chain.charge, chain.offset, e.reach, [&](F difference) __attribute__((always_inline)) {
-        if (frame.lit == 0) return difference;
-        return known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, difference);
-      });
+  const Taps<F> taps = read_out(s, chain.charge, chain.offset, e.reach, [&](F difference) TOFRAY_LAMBDA {
+    if (frame.lit == 0) return difference;
+    return known_difference<plain>(s, frame, light.signal_rate + ambient_rate, rate, most, e, difference);
+  });
   watch(s, frame, most, taps, e);
   return taps;
 }
 template <class F>
-TOFRAY_FN Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
+TOFRAY_INLINE Taps<F> expose(const effect::SensorView& s, int k, const Light<F>& light, int orders, FrameIndex index, Exposure<F>& e) {
   return s.effects != 0 ? expose<false>(s, k, light, orders, index, e) : expose<true>(s, k, light, orders, index, e);
 }
 

@@ -4,7 +4,7 @@
 #include "effect/list.h"
 #include "raw/correlation.h"
 
-/// Poisson counts and read noise, drawn apart.                                                   [theory: eq. 3.6, 3.10]
+/// Poisson counts and read noise, drawn apart.                                  [theory: charge-order, poisson-quantile]
 namespace tofray::raw {
 
 using effect::draw;
@@ -15,7 +15,7 @@ constexpr float inversion_limit = 16.0f;
 
 /// Poisson count by inversion: the smallest k with P(N <= k) >= u. Lanes that have `mean` 0 are done at once.
 template <class F>
-TOFRAY_FN F poisson_by_inversion(F mean, F u) {
+TOFRAY_INLINE F poisson_by_inversion(F mean, F u) {
   F term = num::exp(-mean), sum = term, count = F(0.0f);
   for (int k = 1; k < 80; ++k) {
     const auto more = u > sum;
@@ -28,9 +28,9 @@ TOFRAY_FN F poisson_by_inversion(F mean, F u) {
 }
 
 /// Poisson count from a standard normal: Cornish and Fisher's expansion of the quantile with the correction for whole numbers,
-/// N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋.                                                       [eq. 3.10]
+/// N = ⌊λ + √λ·z + (z² + 2)/6 − (z + z³/2)/(36√λ)⌋.                                       [theory: poisson-quantile]
 template <class F>
-TOFRAY_FN F poisson_by_expansion(F mean, F z) {
+TOFRAY_INLINE F poisson_by_expansion(F mean, F z) {
   const F held = num::max(mean, F(inversion_limit));
   const F root = num::sqrt(held);
   const F square = z * z;
@@ -43,7 +43,7 @@ TOFRAY_FN F poisson_by_expansion(F mean, F z) {
 }
 
 template <class F>
-TOFRAY_FN Means<F> expose_apart(const effect::SensorView& s, const Means<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
+TOFRAY_INLINE TapPair<F> expose_apart(const effect::SensorView& s, const TapPair<F>& mean, num::Int<F> pixel, int k, FrameIndex frame) {
   const num::Random4<F> words = draw<F>(s, pixel, k, frame, effect::shot_and_read);
   F shot_a, shot_b, read_a, read_b;
   num::normal_pair<F>(words.w[0], words.w[1], shot_a, shot_b);

@@ -20,9 +20,9 @@ using load::Settings;
 namespace {
 
 using SortedTree = nlohmann::json;  // sorted: it finds its keys in logarithmic time, however many there are
-using model::Form;
 using model::Row;
 using model::Table;
+using model::ValueForm;
 
 const SortedTree nothing;
 
@@ -33,7 +33,7 @@ const SortedTree& member(const SortedTree& from, const std::string& name) {
 }
 
 /// A number with its SI unit, as people write it; a list of such; what is no number as it is, for the reader to complain.
-SortedTree quantity(const SortedTree& value, const Form& form) {
+SortedTree quantity(const SortedTree& value, const ValueForm& form) {
   if (value.is_array()) {
     SortedTree list = SortedTree::array();
     for (const SortedTree& one : value) list.push_back(quantity(one, form));
@@ -43,12 +43,12 @@ SortedTree quantity(const SortedTree& value, const Form& form) {
   return value.is_number() && !unit.empty() ? SortedTree(base::number_text(value.get<double>()) + " " + unit) : value;
 }
 
-const Form& number_form(const Form& form) { return form.forms.empty() ? form : number_form(form.forms[0]); }
+const ValueForm& number_form(const ValueForm& form) { return form.forms.empty() ? form : number_form(form.forms[0]); }
 
 /// Whether a member that may be missing in files is at a value that no file can say.
 bool left_out(const Row& row, const SortedTree& value) {
   if (row.presence != model::Presence::absent || !value.is_number()) return false;
-  const Form& form = number_form(row.form);
+  const ValueForm& form = number_form(row.form);
   return !(value.get<double>() >= form.low && value.get<double>() <= form.high);
 }
 
@@ -106,7 +106,7 @@ class Writer {
   /// One sample is a constant.
   static SortedTree curve(const Row& row, const SortedTree& value) {
     const SortedTree &x = member(value, "x"), &y = member(value, "y");
-    if (row.form.kind == Form::Kind::either && y.is_array() && y.size() == 1) return y[0];
+    if (row.form.kind == ValueForm::Kind::either && y.is_array() && y.size() == 1) return y[0];
     return {{row.x_key, quantity(x, row.x)}, {row.y_key, quantity(y, row.y)}};
   }
 

@@ -19,7 +19,7 @@ namespace tofray::scene {
 ///         light that cannot be scaled because the eye, or the camera behind its filter, sees nothing of it
 base::Spectrum ambient_spectrum(const Ambient& ambient, const Filter& filter);
 
-/// E_B = ∫ E_λ·T(λ) dλ  [W/m²]: ambient irradiance within the camera's filter.       [theory: eq. 2.10]
+/// E_B = ∫ E_λ·T(λ) dλ  [W/m²]: ambient irradiance within the camera's filter.  [theory: ambient-light]
 ///
 /// T is `filter.peak` over centre ± half width and 0 outside, or the filter's table: a not-a-knot spline within its samples (never below 0)
 /// and 0 outside; a table of one sample passes all wavelengths alike.

@@ -36,11 +36,11 @@ struct Clusters {
   std::int32_t count;             ///< of clusters; 0: there are so few bodies that each is looked at
 
   /// What holds 32 clusters each.
-  TOFRAY_FN const ManyBounds* of_groups() const { return of_clusters + (count + cluster_size - 1) / cluster_size; }
+  TOFRAY_INLINE const ManyBounds* of_groups() const { return of_clusters + (count + cluster_size - 1) / cluster_size; }
   /// [cluster][32] what place each of them has where they are sorted by how near the camera they begin
-  TOFRAY_FN const std::int32_t* ranks() const { return bodies + count * cluster_size; }
+  TOFRAY_INLINE const std::int32_t* ranks() const { return bodies + count * cluster_size; }
   /// [rank] … and which one, 32·cluster + i, has that place
-  TOFRAY_FN const std::int32_t* order() const { return bodies + 2 * count * cluster_size; }
+  TOFRAY_INLINE const std::int32_t* order() const { return bodies + 2 * count * cluster_size; }
 };
 
 /// All of them.
@@ -53,13 +53,13 @@ struct ClustersOf {
   std::int32_t count;
   std::int32_t upper;  ///< rectangles for each view in clusters_seen and clusters_along: of clusters, by 32, and of 32 of these groups each
 
-  TOFRAY_FN Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * upper, count}; }
-  TOFRAY_FN Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * upper, count}; }
-  TOFRAY_FN Boxes around(int moment) const {
+  TOFRAY_INLINE Clusters seen_from(int row) const { return {bodies, bodies_seen + row * count, clusters_seen + row * upper, count}; }
+  TOFRAY_INLINE Clusters seen_along(int row) const { return {bodies, bodies_along + row * count, clusters_along + row * upper, count}; }
+  TOFRAY_INLINE Boxes around(int moment) const {
     return {bodies, bodies_around + moment * count, clusters_around + moment * groups(), bodies_around == nullptr ? 0 : count};
   }
   /// How often 32 clusters are looked at.
-  TOFRAY_FN int groups() const { return (count + cluster_size - 1) / cluster_size; }
+  TOFRAY_INLINE int groups() const { return (count + cluster_size - 1) / cluster_size; }
   bool operator==(const ClustersOf&) const = default;
 };
 

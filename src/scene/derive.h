@@ -10,7 +10,7 @@
 namespace tofray::scene {
 
 template <class T>
-TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) {
+TOFRAY_INLINE void derive_facets(const Body<T>& body, const T& seen, Facet* facets) {
   for (int side = 0; side < T::facets; ++side) {
     Facet facet{};
     facet.curved = T::curved ? 1 + shape::place_in<T>(shape::Shapes{}) : 0;
@@ -22,7 +22,7 @@ TOFRAY_FN void derive_facets(const Body<T>& body, const T& seen, Facet* facets) 
 
 /// The body in the camera's frame.
 template <class T>
-TOFRAY_FN T body_at(const SceneView& s, const Body<T>& body, int moment) {
+TOFRAY_INLINE T body_at(const SceneView& s, const Body<T>& body, int moment) {
   return in_frame(body.shape, body.mover < 0 ? s.camera : s.frames[moment * s.movers + body.mover]);
 }
 
@@ -30,7 +30,7 @@ TOFRAY_FN T body_at(const SceneView& s, const Body<T>& body, int moment) {
 /// @param facets  of the group in this moment; null: they are not wanted
 /// @param first   number of the group's first facet in this moment
 template <class T>
-TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets, int first) {
+TOFRAY_INLINE void derive_body(const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets, int first) {
   const int count = group.bodies.of<T>().count;
   const Body<T>& body = group.bodies.of<T>().at(moment, i);
   const T seen = body_at(s, body, moment);
@@ -56,8 +56,8 @@ TOFRAY_FN void derive_body(const SceneView& s, const Group& group, int moment, i
 
 /// Body number `i` of all shapes.
 template <class... T>
-TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, int i, int eye, bool forms, Facet* facets,
-                          int first) {
+TOFRAY_INLINE void derive_any(shape::List<T...>, const SceneView& s, const Group& group, int moment, int i, int eye, bool forms,
+                              Facet* facets, int first) {
   ((i >= 0 && i < group.bodies.of<T>().count ? derive_body<T>(s, group, moment, i, eye, forms, facets, first) : void(),
     i -= group.bodies.of<T>().count),
    ...);
@@ -66,14 +66,14 @@ TOFRAY_FN void derive_any(shape::List<T...>, const SceneView& s, const Group& gr
 /// What is wanted: the facets and forms of what moves and the facets of what stands still; or these and the forms of what stands still.
 enum class Derive : std::int32_t { moving, all };
 
-TOFRAY_FN int eyes_of(const SceneView& s) { return 1 + s.lights + (s.has_sun != 0 ? 1 : 0); }
-TOFRAY_FN int moving_units(const SceneView& s) { return s.moments * eyes_of(s) * s.moving.body_count; }
-TOFRAY_FN int unit_count(const SceneView& s, Derive what) {
+TOFRAY_INLINE int eyes_of(const SceneView& s) { return 1 + s.lights + (s.has_sun != 0 ? 1 : 0); }
+TOFRAY_INLINE int moving_units(const SceneView& s) { return s.moments * eyes_of(s) * s.moving.body_count; }
+TOFRAY_INLINE int unit_count(const SceneView& s, Derive what) {
   return moving_units(s) + (what == Derive::all ? eyes_of(s) : 1) * s.still.body_count;
 }
 
 /// Unit number `unit`.
-TOFRAY_FN void derive(const SceneView& s, Derive what, int unit) {
+TOFRAY_INLINE void derive(const SceneView& s, Derive what, int unit) {
   const int eyes = eyes_of(s), moving = moving_units(s);
   if (unit < moving) {
     const int i = unit % s.moving.body_count, row = unit / s.moving.body_count, eye = row % eyes, moment = row / eyes;
@@ -86,7 +86,7 @@ TOFRAY_FN void derive(const SceneView& s, Derive what, int unit) {
 }
 
 /// Facets of a frame, one at least: where nothing is hit, facet 0 is read all the same, and what it says is thrown away.
-TOFRAY_FN int facet_count(const SceneView& s) {
+TOFRAY_INLINE int facet_count(const SceneView& s) {
   const int count = s.still.facet_count + s.moments * s.moving.facet_count;
   return count > 0 ? count : 1;
 }

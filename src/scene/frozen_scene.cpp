@@ -41,7 +41,7 @@ void number(shape::List<T...>, BodyLists& from, Group& to) {
 }
 
 /// The frame in which what a motion moves is seen: x → axes·(turn·x + shift − position) = axes·turn·(x − turnᵀ·(position − shift)).
-shape::Frame frame_of(const CameraFrame& camera, const Motion& motion, bool turns) {
+shape::CoordinateFrame frame_of(const CameraFrame& camera, const Motion& motion, bool turns) {
   const shape::Mat axes{{vec(camera.rotation[0]), vec(camera.rotation[1]), vec(camera.rotation[2])}};
   const Vec from = vec(camera.position) - motion.shift;
   if (!turns) return {axes, from};
@@ -330,8 +330,8 @@ void FrozenScene::change_shapes() {
 namespace {
 
 /// From where an object's points are seen to where they are seen at another time. What is at X before it moves is at A·(X − o) now and at
-/// B·(X − q) then: B·Aᵀ·P + B·(o − q).                                                                     [theory: eq. 6.11]
-void put_step(const shape::Frame& here, const shape::Frame& there, MotionView& out) {
+/// B·(X − q) then: B·Aᵀ·P + B·(o − q).                                                          [theory: camera-frame-motion]
+void put_step(const shape::CoordinateFrame& here, const shape::CoordinateFrame& there, MotionView& out) {
   shape::copy(there.axes * (here.origin - there.origin), out.step);
   for (int k = 0; k < 3; ++k) {
     Vec row = here.axes * there.axes.row[k];
@@ -342,7 +342,7 @@ void put_step(const shape::Frame& here, const shape::Frame& there, MotionView& o
 
 }  // namespace
 
-/// How all moves from each moment to the time of the truth.                                                 [theory: eq. 6.15]
+/// How all moves from each moment to the time of the truth.                                           [theory: raw-frame-flow]
 void FrozenScene::look_to_truth(const std::optional<Pose>& pose) {
   view_.to_truth = nullptr;
   if (!times_.to_truth) return;
@@ -352,14 +352,14 @@ void FrozenScene::look_to_truth(const std::optional<Pose>& pose) {
   for (std::size_t k = 0; k < times_.moments.size(); ++k) {
     for (std::size_t m = 0; m < movers_.size(); ++m) {
       const Object& object = scene_.objects[movers_[m].object];
-      const shape::Frame there = frame_of(camera, motion_at(object, movers_[m].center, times_.truth_s()), turns(object));
+      const shape::CoordinateFrame there = frame_of(camera, motion_at(object, movers_[m].center, times_.truth_s()), turns(object));
       put_step(frames_[k * movers_.size() + m], there, to_truth_[k * rows + 1 + m]);
     }
   }
   view_.to_truth = to_truth_.data();
 }
 
-/// P is seen at axes·(X − position); both X and the camera move.                                              [theory: eq. 6.11]
+/// P is seen at axes·(X − position); both X and the camera move.                                   [theory: camera-frame-motion]
 void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
   const double now = times_.truth_s(), later = now + times_.period_s;
   const MovingCamera camera = pose ? MovingCamera{camera_frame(*pose)} : camera_at(scene_.camera, now);
@@ -368,8 +368,8 @@ void FrozenScene::look_at_motion(const std::optional<Pose>& pose) {
     const Mover& mover = movers_[m];
     const Object& object = scene_.objects[mover.object];
     const Motion motion = motion_at(object, mover.center, now);
-    const shape::Frame here = frame_of(camera.frame, motion, turns(object)),
-                       there = frame_of(after, motion_at(object, mover.center, later), turns(object));
+    const shape::CoordinateFrame here = frame_of(camera.frame, motion, turns(object)),
+                                 there = frame_of(after, motion_at(object, mover.center, later), turns(object));
     const shape::Mat axes{{vec(camera.frame.rotation[0]), vec(camera.frame.rotation[1]), vec(camera.frame.rotation[2])}};
     MotionView& out = motions_[1 + m];
     shape::copy(axes * (motion.drift + cross(motion.spin, vec(camera.frame.position)) - camera.velocity), out.velocity);

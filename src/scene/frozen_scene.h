@@ -110,7 +110,7 @@ class FrozenScene {
   std::vector<ChangingBody> changing_bodies_;
   std::vector<MotionView> motions_, to_truth_;
   std::vector<std::int32_t> motion_of_, class_of_;
-  std::vector<shape::Frame> frames_;
+  std::vector<shape::CoordinateFrame> frames_;
   std::vector<Vec> toward_suns_;
   std::vector<float> sun_directions_;
   std::vector<brdf::MaterialView> materials_;

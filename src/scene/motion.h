@@ -12,8 +12,8 @@ using shape::Vec;
 
 inline Vec vec(const Vec3& a) { return {a[0], a[1], a[2]}; }
 
-/// A rigid motion, in the world, seen at one time: what was at P before it began is at turn·P + shift [theory: eq. 6.7], and moves with
-/// drift + spin × (its place now) [theory: eq. 6.8].
+/// A rigid motion, in the world, seen at one time: what was at P before it began is at turn·P + shift [theory: rigid-motion], and moves
+/// with drift + spin × (its place now) [theory: velocity-field].
 struct Motion {
   shape::Mat turn{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   Vec shift{0, 0, 0};
@@ -29,7 +29,7 @@ shape::Mat product(const shape::Mat& a, const shape::Mat& b);
 
 /// Whether it is not always as `placement_of` puts it.
 bool moves(const Object& object);
-/// By both velocities, or between two keyframes [theory: eq. 6.9].
+/// By both velocities, or between two keyframes [theory: keyframes].
 /// @param center  what the object turns about, where the scene puts it before it moves
 Motion motion_at(const Object& object, const Vec& center, double time_s);
 
@@ -50,7 +50,7 @@ struct MovingCamera {
   CameraFrame frame;
   Vec velocity{0, 0, 0}, spin{0, 0, 0};
 };
-/// Its pose, or a mean of two keyframes' [theory: eq. 6.10].
+/// Its pose, or a mean of two keyframes' [theory: camera-keyframes].
 Pose pose_at(const CameraChoice& camera, double time_s);
 MovingCamera camera_at(const CameraChoice& camera, double time_s);
 

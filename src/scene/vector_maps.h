@@ -17,7 +17,7 @@ using Levels = std::vector<std::unique_ptr<const MapLevels>>;
 Levels levels_of_normals(const VectorMap& normals, const ReflectivityMap* opacity = nullptr);
 
 /// What a GGX surface has at each place, five pictures: its BRDF's numbers (brdf/ggx.h), the reflectivity and its matt part. All of them
-/// are what light is linear in, or nearly, so that a level's means stand for what a pixel sees.    [theory: eq. 2.29]
+/// are what light is linear in, or nearly, so that a level's means stand for what a pixel sees.  [theory: metal-roughness-map]
 /// @param opacity  as of MapLevels
 Levels levels_of_finish(const VectorMap& finish, const ReflectivityMap* opacity = nullptr);
 

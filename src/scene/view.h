@@ -26,7 +26,7 @@ template <class T>
 struct BodiesOf {
   const Body<T>* first;
   std::int32_t count, per_moment;  ///< per_moment: `count`, or 0 where they are the same at all of them
-  TOFRAY_FN const Body<T>& at(int moment, int i) const { return first[moment * per_moment + i]; }
+  TOFRAY_INLINE const Body<T>& at(int moment, int i) const { return first[moment * per_moment + i]; }
   bool operator==(const BodiesOf&) const = default;
 };
 template <class T>
@@ -64,19 +64,19 @@ struct Group {
   shape::ByShape<ClustersOf> clusters;
   std::int32_t body_count, facet_count;
 
-  TOFRAY_FN Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
-  TOFRAY_FN Alongs seen_along(int moment) const { return seen_along(shape::Shapes{}, moment); }
+  TOFRAY_INLINE Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
+  TOFRAY_INLINE Alongs seen_along(int moment) const { return seen_along(shape::Shapes{}, moment); }
   bool operator==(const Group&) const = default;
 
  private:
   template <class... T>
-  TOFRAY_FN Forms seen_from(shape::List<T...>, int row) const {
+  TOFRAY_INLINE Forms seen_from(shape::List<T...>, int row) const {
     Forms out;
     ((out.of<T>() = {derived.of<T>().forms + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_from(row)}), ...);
     return out;
   }
   template <class... T>
-  TOFRAY_FN Alongs seen_along(shape::List<T...>, int row) const {
+  TOFRAY_INLINE Alongs seen_along(shape::List<T...>, int row) const {
     Alongs out;
     ((out.of<T>() = {derived.of<T>().along + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_along(row)}), ...);
     return out;
@@ -100,16 +100,16 @@ struct SceneView {
   Facet* facets;  ///< still ones, then those of moment 0, 1 …
   const brdf::MaterialView* materials;
   const brdf::MapView* maps;
-  const shape::Vec* light_positions;  ///< [light] camera frame [m]
-  const MotionView* motions;          ///< [0] of what stands still, then [1 + mover]
-  const MotionView* to_truth;         ///< [moment][as motions] step and turn from there to the time of the truth; null: not asked for
-  const std::int32_t* motion_of;      ///< [object] its row of `motions`
-  const std::int32_t* class_of;       ///< [object] number of its class; −1: none
-  const shape::Frame* frames;         ///< [moment][mover] the camera's, as what moves sees it: as if the camera moved the other way
-  const shape::Vec* toward_sun;       ///< [moment] unit vector, camera frame; one at least
-  const float* sun_directions;        ///< [moment][3] the same
-  shape::Frame camera;                ///< where the camera stands, if it does
-  std::int32_t moments;               ///< 0: nothing moves; else those of all raw frames, as many for each
+  const shape::Vec* light_positions;     ///< [light] camera frame [m]
+  const MotionView* motions;             ///< [0] of what stands still, then [1 + mover]
+  const MotionView* to_truth;            ///< [moment][as motions] step and turn from there to the time of the truth; null: not asked for
+  const std::int32_t* motion_of;         ///< [object] its row of `motions`
+  const std::int32_t* class_of;          ///< [object] number of its class; −1: none
+  const shape::CoordinateFrame* frames;  ///< [moment][mover] the camera's, as what moves sees it: as if the camera moved the other way
+  const shape::Vec* toward_sun;          ///< [moment] unit vector, camera frame; one at least
+  const float* sun_directions;           ///< [moment][3] the same
+  shape::CoordinateFrame camera;         ///< where the camera stands, if it does
+  std::int32_t moments;                  ///< 0: nothing moves; else those of all raw frames, as many for each
   std::int32_t movers;
   std::int32_t lights;
   std::int32_t has_sun;  ///< light comes from one direction, too
@@ -120,13 +120,13 @@ struct SceneView {
   float roughness;            ///< how well positions are known at all, by lights that are far away and meshes that are large [m]
   std::int32_t bounces;       ///< light goes from surface to surface, too: rays leave from anywhere
 
-  TOFRAY_FN Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
-  TOFRAY_FN Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }
-  TOFRAY_FN Forms light_still(int light) const { return still.seen_from(0, 1 + light, 1 + lights); }
-  TOFRAY_FN Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
-  TOFRAY_FN Alongs sun_still() const { return still.seen_along(0); }
-  TOFRAY_FN Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
-  TOFRAY_FN const float* sun(int moment) const { return sun_directions + 3 * moment; }
+  TOFRAY_INLINE Forms camera_still() const { return still.seen_from(0, 0, 1 + lights); }
+  TOFRAY_INLINE Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }
+  TOFRAY_INLINE Forms light_still(int light) const { return still.seen_from(0, 1 + light, 1 + lights); }
+  TOFRAY_INLINE Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
+  TOFRAY_INLINE Alongs sun_still() const { return still.seen_along(0); }
+  TOFRAY_INLINE Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
+  TOFRAY_INLINE const float* sun(int moment) const { return sun_directions + 3 * moment; }
   bool operator==(const SceneView&) const = default;
 };
 

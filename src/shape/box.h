@@ -61,24 +61,24 @@ struct Box {
   }
 };
 
-TOFRAY_FN Box in_frame(const Box& b, const Frame& frame) {
+TOFRAY_INLINE Box in_frame(const Box& b, const CoordinateFrame& frame) {
   return {
       frame.point(b.center), {{frame.direction(b.axes.row[0]), frame.direction(b.axes.row[1]), frame.direction(b.axes.row[2])}}, b.half};
 }
 /// How far a box about zero reaches along a.
-TOFRAY_FN double reach_of_box(const Mat& axes, const Vec& half, const Vec& a) {
+TOFRAY_INLINE double reach_of_box(const Mat& axes, const Vec& half, const Vec& a) {
   const Vec along = axes * a;
   return half.x * ::fabs(along.x) + half.y * ::fabs(along.y) + half.z * ::fabs(along.z);
 }
-TOFRAY_FN Span span_along(const Box& b, const Vec& a) { return span_about(dot(b.center, a), reach_of_box(b.axes, b.half, a)); }
-TOFRAY_FN bool inside(const Box& b, const Vec& p) {
+TOFRAY_INLINE Span span_along(const Box& b, const Vec& a) { return span_about(dot(b.center, a), reach_of_box(b.axes, b.half, a)); }
+TOFRAY_INLINE bool inside(const Box& b, const Vec& p) {
   const Vec q = b.axes * (p - b.center);
   return ::fabs(q.x) < b.half.x && ::fabs(q.y) < b.half.y && ::fabs(q.z) < b.half.z;
 }
 
-TOFRAY_FN void facet_of(const Box& b, int side, Facet& out) { face(b.axes.row[side], out); }
+TOFRAY_INLINE void facet_of(const Box& b, int side, Facet& out) { face(b.axes.row[side], out); }
 
-TOFRAY_FN BoxForm seen_from(const Box& b, const Vec& origin) {
+TOFRAY_INLINE BoxForm seen_from(const Box& b, const Vec& origin) {
   BoxForm form{};
   const Vec center = b.axes * (b.center - origin);
   for (int k = 0; k < 3; ++k) {
@@ -104,11 +104,11 @@ TOFRAY_FN BoxForm seen_from(const Box& b, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const BoxForm& box, const Bounds& r) { return overlap(box.bounds, r); }
+TOFRAY_INLINE bool can_meet(const BoxForm& box, const Bounds& r) { return overlap(box.bounds, r); }
 
 /// By slabs in w; `axis` says through which pair of sides the hit goes.
 template <class F>
-TOFRAY_FN F inverse_range(const BoxForm& box, const Ray<F>& ray, Int<F>& axis) {
+TOFRAY_INLINE F inverse_range(const BoxForm& box, const Ray<F>& ray, Int<F>& axis) {
   F enter = F(2e30f), leave = F(-2e30f);
   Int<F> enter_axis(0), leave_axis(0);
   for (int k = 0; k < 3; ++k) {
@@ -128,7 +128,7 @@ TOFRAY_FN F inverse_range(const BoxForm& box, const Ray<F>& ray, Int<F>& axis) {
   return num::select(enter >= leave, enter, F(0.0f));
 }
 
-TOFRAY_FN BoxAlong seen_along(const Box& b, const Vec& s) {
+TOFRAY_INLINE BoxAlong seen_along(const Box& b, const Vec& s) {
   BoxAlong form{};
   const Vec direction = b.axes * s, center = b.axes * b.center;
   for (int k = 0; k < 3; ++k) {
@@ -140,7 +140,7 @@ TOFRAY_FN BoxAlong seen_along(const Box& b, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const BoxAlong& box, const Place<F>& p, const float*, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const BoxAlong& box, const Place<F>& p, const float*, F margin) {
   F enter = F(0.0f), leave = F(3e38f);
   for (int k = 0; k < 3; ++k) {
     const F place = affine(p, box.axis[k], box.offset[k]);
@@ -151,7 +151,7 @@ TOFRAY_FN Mask<F> blocks(const BoxAlong& box, const Place<F>& p, const float*, F
   return leave > enter + margin;
 }
 
-TOFRAY_FN BoxFree free_of(const Box& b) {
+TOFRAY_INLINE BoxFree free_of(const Box& b) {
   BoxFree form{};
   const Vec center = b.axes * b.center;
   for (int k = 0; k < 3; ++k) {
@@ -162,8 +162,8 @@ TOFRAY_FN BoxFree free_of(const Box& b) {
 }
 
 template <class F>
-TOFRAY_FN Passage<F> passage(const BoxFree& b, const FreeRay<F>& ray) {
-  const auto slab = [&](int k) __attribute__((always_inline)) {
+TOFRAY_INLINE Passage<F> passage(const BoxFree& b, const FreeRay<F>& ray) {
+  const auto slab = [&](int k) TOFRAY_LAMBDA {
     return between_planes(placed(ray, b.axis[k], b.offset[k]), turned(ray, b.axis[k]), F(b.half[k]), Int<F>(k));
   };
   return common_passage(common_passage(slab(0), slab(1)), slab(2));

@@ -64,19 +64,19 @@ struct Capsule {
   }
 
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+  TOFRAY_INLINE static Direction<F> normal(const Facet& of, F x, F y, F z) {
     return Cylinder::normal(of, x, y, z);
   }
 };
 
-TOFRAY_FN Capsule in_frame(const Capsule& c, const Frame& frame) {
+TOFRAY_INLINE Capsule in_frame(const Capsule& c, const CoordinateFrame& frame) {
   return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
 }
 
-TOFRAY_FN Span span_along(const Capsule& c, const Vec& a) {
+TOFRAY_INLINE Span span_along(const Capsule& c, const Vec& a) {
   return span_about(dot(c.center, a), c.half * ::fabs(dot(c.axis, a)) + c.radius);
 }
-TOFRAY_FN bool inside(const Capsule& c, const Vec& p) {
+TOFRAY_INLINE bool inside(const Capsule& c, const Vec& p) {
   const Vec q = p - c.center;
   const double along = dot(q, c.axis), beyond = ::fabs(along) > c.half ? ::fabs(along) - c.half : 0;
   const Vec side = across(q, c.axis);
@@ -84,9 +84,9 @@ TOFRAY_FN bool inside(const Capsule& c, const Vec& p) {
 }
 
 /// Of the end along its axis (0), and of the other one.
-TOFRAY_FN Vec end_of(const Capsule& c, int end) { return c.center + (end == 0 ? c.half : -c.half) * c.axis; }
+TOFRAY_INLINE Vec end_of(const Capsule& c, int end) { return c.center + (end == 0 ? c.half : -c.half) * c.axis; }
 
-TOFRAY_FN void facet_of(const Capsule& c, int side, Facet& out) {
+TOFRAY_INLINE void facet_of(const Capsule& c, int side, Facet& out) {
   if (side == 0) {
     face_round(c.center, c.axis, c.radius, out);
   } else {
@@ -94,7 +94,7 @@ TOFRAY_FN void facet_of(const Capsule& c, int side, Facet& out) {
   }
 }
 
-TOFRAY_FN CapsuleForm seen_from(const Capsule& c, const Vec& origin) {
+TOFRAY_INLINE CapsuleForm seen_from(const Capsule& c, const Vec& origin) {
   CapsuleForm form{};
   const Vec center = c.center - origin;
   form.tube = tube_round(center, c.axis, c.radius);
@@ -114,16 +114,16 @@ TOFRAY_FN CapsuleForm seen_from(const Capsule& c, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const CapsuleForm& capsule, const Bounds& r) { return overlap(capsule.bounds, r); }
+TOFRAY_INLINE bool can_meet(const CapsuleForm& capsule, const Bounds& r) { return overlap(capsule.bounds, r); }
 
 /// `side` is 0 for the side, 1 and 2 for the ends. (What misses the tube, w = 0, misses its ends.)
 template <class F>
-TOFRAY_FN F inverse_range(const CapsuleForm& c, const Ray<F>& ray, Int<F>& side) {
+TOFRAY_INLINE F inverse_range(const CapsuleForm& c, const Ray<F>& ray, Int<F>& side) {
   const Crossing<F> tube = crossing(c.tube, ray);
   const F w = c.inside != 0 ? tube.out : tube.in;
   const F along = num::fnma(F(c.at), w, dot(ray, c.tube.a));
   const auto ahead = along > F(0.0f), beyond = num::abs(along) > F(c.half) * w;
-  const auto of_end = [&](float one, float other) __attribute__((always_inline)) { return num::select(ahead, F(one), F(other)); };
+  const auto of_end = [&](float one, float other) TOFRAY_LAMBDA { return num::select(ahead, F(one), F(other)); };
   const F b = num::select(ahead, dot(ray, c.end[0]), dot(ray, c.end[1]));
   const F end = sphere_inverse_range(of_end(c.end[0][0], c.end[1][0]), of_end(c.end[0][1], c.end[1][1]), of_end(c.end[0][2], c.end[1][2]),
                                      b, F(c.tube.radius_squared), of_end(c.inverse_power[0], c.inverse_power[1]), c.inside != 0, ray);
@@ -131,7 +131,7 @@ TOFRAY_FN F inverse_range(const CapsuleForm& c, const Ray<F>& ray, Int<F>& side)
   return num::select(beyond, end, w);
 }
 
-TOFRAY_FN CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
+TOFRAY_INLINE CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
   CapsuleAlong form{};
   form.side = seen_along(Cylinder{c.center, c.axis, c.radius, c.half}, s);
   for (int i = 0; i < 2; ++i) form.end[i] = seen_along(Sphere{end_of(c, i), c.radius}, s);
@@ -140,11 +140,11 @@ TOFRAY_FN CapsuleAlong seen_along(const Capsule& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const CapsuleAlong& c, const Place<F>& p, const float* s, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const CapsuleAlong& c, const Place<F>& p, const float* s, F margin) {
   return blocks(c.side, p, s, margin) | blocks(c.end[0], p, s, margin) | blocks(c.end[1], p, s, margin);
 }
 
-TOFRAY_FN CapsuleFree free_of(const Capsule& c) {
+TOFRAY_INLINE CapsuleFree free_of(const Capsule& c) {
   CapsuleFree form{};
   form.side = free_of(Cylinder{c.center, c.axis, c.radius, c.half});
   for (int i = 0; i < 2; ++i) copy(end_of(c, i), form.end[i]);
@@ -153,7 +153,7 @@ TOFRAY_FN CapsuleFree free_of(const Capsule& c) {
 
 /// It is convex and made of three parts: a line comes in where it comes into the first of them, and goes out of the last.
 template <class F>
-TOFRAY_FN Passage<F> passage(const CapsuleFree& c, const FreeRay<F>& ray) {
+TOFRAY_INLINE Passage<F> passage(const CapsuleFree& c, const FreeRay<F>& ray) {
   Passage<F> all = passage(c.side, ray);
   const auto met = all.in <= all.out;
   all = {num::select(met, all.in, F(never)), num::select(met, all.out, F(-never)), Int<F>(0), Int<F>(0)};

@@ -24,17 +24,17 @@ using num::single;
 /// Stands for an infinite inverse length: d·huge is finite for every direction, and 0·huge is 0.
 TOFRAY_CONSTANT double huge = 1e30;
 
-TOFRAY_FN void copy(const Vec& from, float to[3]) { to[0] = single(from.x), to[1] = single(from.y), to[2] = single(from.z); }
-TOFRAY_FN double inverse(double a) { return ::fabs(a) < 1 / huge ? ::copysign(huge, a) : 1 / a; }
+TOFRAY_INLINE void copy(const Vec& from, float to[3]) { to[0] = single(from.x), to[1] = single(from.y), to[2] = single(from.z); }
+TOFRAY_INLINE double inverse(double a) { return ::fabs(a) < 1 / huge ? ::copysign(huge, a) : 1 / a; }
 
-TOFRAY_FN Bounds unbounded() { return {-3.402823466e38f, 3.402823466e38f, -3.402823466e38f, 3.402823466e38f}; }
+TOFRAY_INLINE Bounds unbounded() { return {-3.402823466e38f, 3.402823466e38f, -3.402823466e38f, 3.402823466e38f}; }
 /// Of what no ray hits.
-TOFRAY_FN Bounds nowhere() { return {1, -1, 1, -1}; }
+TOFRAY_INLINE Bounds nowhere() { return {1, -1, 1, -1}; }
 
 /// A little wider than computed, so that rounding in single precision never cuts a hit off.
-TOFRAY_FN float beyond(double a, double sign) { return single(a + sign * (1e-5 + 1e-5 * ::fabs(a))); }
+TOFRAY_INLINE float beyond(double a, double sign) { return single(a + sign * (1e-5 + 1e-5 * ::fabs(a))); }
 
-TOFRAY_FN Bounds bounds_of_points(const Vec* points, int count) {
+TOFRAY_INLINE Bounds bounds_of_points(const Vec* points, int count) {
   double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
   for (int i = 0; i < count; ++i) {
     if (points[i].z < 1e-6 * length(points[i])) return unbounded();
@@ -46,19 +46,19 @@ TOFRAY_FN Bounds bounds_of_points(const Vec* points, int count) {
   return {beyond(low[0], -1), beyond(high[0], 1), beyond(low[1], -1), beyond(high[1], 1)};
 }
 
-TOFRAY_FN bool overlap(const Bounds& a, const Bounds& b) {
+TOFRAY_INLINE bool overlap(const Bounds& a, const Bounds& b) {
   return (a.x_min <= b.x_max) & (a.x_max >= b.x_min) & (a.y_min <= b.y_max) & (a.y_max >= b.y_min);
 }
 
 /// False where no ray of the rectangle has d·m >= 0: the largest value of x·m0 + y·m1 + m2 over it, and room for rounding.
-TOFRAY_FN bool reaches(const float* m, const Bounds& r) {
+TOFRAY_INLINE bool reaches(const float* m, const Bounds& r) {
   const float largest = (m[0] > 0 ? r.x_max : r.x_min) * m[0] + (m[1] > 0 ? r.y_max : r.y_min) * m[1] + m[2];
   const float x = num::max(num::abs(r.x_min), num::abs(r.x_max)), y = num::max(num::abs(r.y_min), num::abs(r.y_max));
   return largest + 1e-5f * (x * num::abs(m[0]) + y * num::abs(m[1]) + num::abs(m[2])) >= 0;
 }
 
 template <class F>
-TOFRAY_FN F dot(const Ray<F>& ray, const float* m) {
+TOFRAY_INLINE F dot(const Ray<F>& ray, const float* m) {
   return num::fma(ray.x, F(m[0]), num::fma(ray.y, F(m[1]), ray.z * F(m[2])));
 }
 
@@ -66,9 +66,9 @@ TOFRAY_FN F dot(const Ray<F>& ray, const float* m) {
 struct Span {
   double low, high;
 };
-TOFRAY_FN double farthest(const Span& span) { return ::fmax(::fabs(span.low), ::fabs(span.high)); }
-TOFRAY_FN Span span_about(double middle, double half) { return {middle - half, middle + half}; }
-TOFRAY_FN Span span_of_points(const Vec* points, int count, const Vec& a) {
+TOFRAY_INLINE double farthest(const Span& span) { return ::fmax(::fabs(span.low), ::fabs(span.high)); }
+TOFRAY_INLINE Span span_about(double middle, double half) { return {middle - half, middle + half}; }
+TOFRAY_INLINE Span span_of_points(const Vec* points, int count, const Vec& a) {
   Span out{1e300, -1e300};
   for (int i = 0; i < count; ++i) {
     const double q = dot(points[i], a);
@@ -77,7 +77,7 @@ TOFRAY_FN Span span_of_points(const Vec* points, int count, const Vec& a) {
   return out;
 }
 /// How far a circle of radius 1 across the axis reaches along a.
-TOFRAY_FN double reach_across(const Vec& axis, const Vec& a) {
+TOFRAY_INLINE double reach_across(const Vec& axis, const Vec& a) {
   const double along = dot(axis, a), square = 1 - along * along;
   return square > 0 ? ::sqrt(square) : 0;
 }
@@ -86,7 +86,7 @@ TOFRAY_FN double reach_across(const Vec& axis, const Vec& a) {
 struct Screen {
   Vec u, v;
 };
-TOFRAY_FN Screen screen_of(const Vec& s) {
+TOFRAY_INLINE Screen screen_of(const Vec& s) {
   const Vec u = way_across(s.x * s.x < 0.5 ? Vec{1, 0, 0} : Vec{0, 1, 0}, s);
   return {u, cross(s, u)};
 }
@@ -96,13 +96,13 @@ TOFRAY_CONSTANT double screen_room = 1e-5;
 
 /// How much farther than rounding goes a shadow that has suffered from it.
 template <class T>
-TOFRAY_FN double spread(const T&, const Vec&) {
+TOFRAY_INLINE double spread(const T&, const Vec&) {
   return 1;
 }
 /// Rectangle on the screen that holds a shape's shadow: wider than computed by more than rounding in single precision takes off its way
 /// there, which goes as the distances do.
 template <class T>
-TOFRAY_FN Bounds bounds_along(const T& shape, const Vec& s) {
+TOFRAY_INLINE Bounds bounds_along(const T& shape, const Vec& s) {
   const Screen screen = screen_of(s);
   const Span u = span_along(shape, screen.u), v = span_along(shape, screen.v), w = span_along(shape, s);
   const double room = screen_room * spread(shape, s) * (1 + ::fmax(farthest(u), ::fmax(farthest(v), farthest(w))));
@@ -110,7 +110,7 @@ TOFRAY_FN Bounds bounds_along(const T& shape, const Vec& s) {
 }
 /// False where the form keeps parallel light off no point of the rectangle on its screen. What has no end has no bounds.
 template <class Along>
-TOFRAY_FN bool can_shade(const Along& form, const Bounds& r) {
+TOFRAY_INLINE bool can_shade(const Along& form, const Bounds& r) {
   if constexpr (requires { form.bounds; }) {
     return overlap(form.bounds, r);
   } else {
@@ -121,12 +121,12 @@ TOFRAY_FN bool can_shade(const Along& form, const Bounds& r) {
 /// Rays from the origin meet the shape nowhere before this z, also as it is computed in single precision. Only shapes whose inverse range is
 /// right to some roundings know one: a plane that is almost seen from its edge may be met far before all of its points.
 template <class T>
-TOFRAY_FN float begins_at(const T&, const Vec&) {
+TOFRAY_INLINE float begins_at(const T&, const Vec&) {
   return -3e38f;
 }
 /// The shape keeps light from the direction s off no point P whose −P·s is below this.
 template <class T>
-TOFRAY_FN float begins_along(const T&, const Vec&) {
+TOFRAY_INLINE float begins_along(const T&, const Vec&) {
   return -3e38f;
 }
 /// Room for more than rounding, as a share of how far away a shape is.
@@ -134,7 +134,7 @@ TOFRAY_CONSTANT double depth_room = 1e-5;
 
 /// P·m + offset in the camera frame.
 template <class F>
-TOFRAY_FN F affine(const Place<F>& p, const float* m, float offset) {
+TOFRAY_INLINE F affine(const Place<F>& p, const float* m, float offset) {
   return num::fma(p.x, F(m[0]), num::fma(p.y, F(m[1]), num::fma(p.z, F(m[2]), F(offset))));
 }
 
@@ -147,7 +147,7 @@ struct Crossing {
 /// What is within a round side (facet 0) and between flat ends (facet 1): the later way in and the earlier way out.
 /// @param inside  the origin is inside: it sees where the ray goes out
 template <class F>
-TOFRAY_FN F meet(const Crossing<F>& side, const Crossing<F>& ends, bool inside, Int<F>& facet) {
+TOFRAY_INLINE F meet(const Crossing<F>& side, const Crossing<F>& ends, bool inside, Int<F>& facet) {
   const F leave = num::max(side.out, ends.out);
   if (inside) {
     facet = num::select(ends.out > side.out, Int<F>(1), Int<F>(0));
@@ -175,7 +175,7 @@ struct Facet {
 };
 
 /// A flat facet's numbers. (Adding 0 leaves one kind of zero.)
-TOFRAY_FN void face(const Vec& normal, Facet& out) {
+TOFRAY_INLINE void face(const Vec& normal, Facet& out) {
   copy(normal, out.number);
   for (int k = 0; k < 3; ++k) out.number[k] += 0.0f;
   out.curved = 0;
@@ -184,7 +184,7 @@ TOFRAY_FN void face(const Vec& normal, Facet& out) {
 /// Calls take(facet, its lanes) for each facet that some of the lanes name: mostly one, seldom more than three, so that each is read once and
 /// nothing lane by lane.
 template <class F, class Take>
-TOFRAY_FN void for_each_facet(const Facet* table, Int<F> which, Mask<F> lanes, const Take& take) {
+TOFRAY_INLINE void for_each_facet(const Facet* table, Int<F> which, Mask<F> lanes, const Take& take) {
   for (Mask<F> left = lanes; num::any(left);) {
     const std::int32_t one = num::first_of(left, which);
     const Mask<F> its = lanes & (which == Int<F>(one));
@@ -203,16 +203,16 @@ TOFRAY_CONSTANT float never = 3e38f;
 
 /// d·m, and o·m + offset.
 template <class F>
-TOFRAY_FN F turned(const FreeRay<F>& ray, const float* m) {
+TOFRAY_INLINE F turned(const FreeRay<F>& ray, const float* m) {
   return num::fma(ray.dx, F(m[0]), num::fma(ray.dy, F(m[1]), ray.dz * F(m[2])));
 }
 template <class F>
-TOFRAY_FN F placed(const FreeRay<F>& ray, const float* m, float offset) {
+TOFRAY_INLINE F placed(const FreeRay<F>& ray, const float* m, float offset) {
   return num::fma(ray.x, F(m[0]), num::fma(ray.y, F(m[1]), num::fma(ray.z, F(m[2]), F(offset))));
 }
 /// 1/a with a's sign; huge where a is next to nothing.
 template <class F>
-TOFRAY_FN F inverse_of(F a) {
+TOFRAY_INLINE F inverse_of(F a) {
   return F(1.0f) / num::copy_sign(num::max(num::abs(a), F(1e-30f)), a);
 }
 
@@ -223,14 +223,14 @@ struct Passage {
   Int<F> in_facet, out_facet;
 };
 template <class F>
-TOFRAY_FN Passage<F> common_passage(const Passage<F>& a, const Passage<F>& b) {
+TOFRAY_INLINE Passage<F> common_passage(const Passage<F>& a, const Passage<F>& b) {
   const auto later = b.in > a.in, earlier = b.out < a.out;
   return {num::select(later, b.in, a.in), num::select(earlier, b.out, a.out), num::select(later, b.in_facet, a.in_facet),
           num::select(earlier, b.out_facet, a.out_facet)};
 }
 /// Where a line is between two parallel planes, ±half from `place` along a coordinate that it goes along by `step`.
 template <class F>
-TOFRAY_FN Passage<F> between_planes(F place, F step, F half, Int<F> facet) {
+TOFRAY_INLINE Passage<F> between_planes(F place, F step, F half, Int<F> facet) {
   const F inverse = inverse_of(step);
   const F one = (-half - place) * inverse, other = (half - place) * inverse;
   return {num::min(one, other), num::max(one, other), facet, facet};
@@ -238,7 +238,7 @@ TOFRAY_FN Passage<F> between_planes(F place, F step, F half, Int<F> facet) {
 
 /// a·b − c·d to 1.5 units in the last place, its sign as without any rounding (Kahan; Jeannerod, Louvet and Muller 2013).
 template <class F>
-TOFRAY_FN F difference_of_products(F a, F b, F c, F d) {
+TOFRAY_INLINE F difference_of_products(F a, F b, F c, F d) {
   const F product = c * d;
   const F rounding = num::fnma(c, d, product);
   return num::fms(a, b, product) + rounding;
@@ -246,7 +246,7 @@ TOFRAY_FN F difference_of_products(F a, F b, F c, F d) {
 
 /// Which coordinate of the direction is the longest.
 template <class F>
-TOFRAY_FN Int<F> longest_of(const F (&direction)[3]) {
+TOFRAY_INLINE Int<F> longest_of(const F (&direction)[3]) {
   const F x = num::abs(direction[0]), y = num::abs(direction[1]), z = num::abs(direction[2]);
   return num::select((x > y) & (x > z), Int<F>(0), num::select(y > z, Int<F>(1), Int<F>(2)));
 }

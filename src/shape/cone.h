@@ -69,7 +69,7 @@ struct Cone {
 
   /// Of its side: n = K·(what of P − T is across a, of unit length) + S·a. The tip has none: there it is S·a, the mean of those about it.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+  TOFRAY_INLINE static Direction<F> normal(const Facet& of, F x, F y, F z) {
     const F ax = F(of.number[3]), ay = F(of.number[4]), az = F(of.number[5]), sine = F(of.number[7]);
     const F qx = x - F(of.number[0]), qy = y - F(of.number[1]), qz = z - F(of.number[2]);
     const F along = num::fma(qx, ax, num::fma(qy, ay, qz * az));
@@ -79,23 +79,25 @@ struct Cone {
   }
 };
 
-TOFRAY_FN Cone in_frame(const Cone& c, const Frame& frame) { return {frame.point(c.tip), frame.direction(c.axis), c.radius, c.height}; }
+TOFRAY_INLINE Cone in_frame(const Cone& c, const CoordinateFrame& frame) {
+  return {frame.point(c.tip), frame.direction(c.axis), c.radius, c.height};
+}
 
-TOFRAY_FN Span span_along(const Cone& c, const Vec& a) {
+TOFRAY_INLINE Span span_along(const Cone& c, const Vec& a) {
   const double tip = dot(c.tip, a);
   const Span base = span_about(dot(c.tip - c.height * c.axis, a), c.radius * reach_across(c.axis, a));
   return {::fmin(tip, base.low), ::fmax(tip, base.high)};
 }
-TOFRAY_FN bool inside(const Cone& c, const Vec& p) {
+TOFRAY_INLINE bool inside(const Cone& c, const Vec& p) {
   const Vec q = c.tip - p;
   const double below = dot(q, c.axis);
   return below < c.height && length(across(q, c.axis)) * c.height < c.radius * below;
 }
 
-TOFRAY_FN double sine_of(const Cone& c) { return c.radius / ::sqrt(c.radius * c.radius + c.height * c.height); }
-TOFRAY_FN double cosine_of(const Cone& c) { return c.height / ::sqrt(c.radius * c.radius + c.height * c.height); }
+TOFRAY_INLINE double sine_of(const Cone& c) { return c.radius / ::sqrt(c.radius * c.radius + c.height * c.height); }
+TOFRAY_INLINE double cosine_of(const Cone& c) { return c.height / ::sqrt(c.radius * c.radius + c.height * c.height); }
 
-TOFRAY_FN void facet_of(const Cone& c, int side, Facet& out) {
+TOFRAY_INLINE void facet_of(const Cone& c, int side, Facet& out) {
   if (side == 1) {
     face(c.axis, out);
     return;
@@ -104,7 +106,7 @@ TOFRAY_FN void facet_of(const Cone& c, int side, Facet& out) {
   out.number[6] = single(cosine_of(c)), out.number[7] = single(sine_of(c));
 }
 
-TOFRAY_FN ConeForm seen_from(const Cone& c, const Vec& origin) {
+TOFRAY_INLINE ConeForm seen_from(const Cone& c, const Vec& origin) {
   ConeForm form{};
   const double sine = sine_of(c), cosine = cosine_of(c);
   const Vec tip = c.tip - origin, base = tip - c.height * c.axis, u = way_across(tip, c.axis), v = cross(c.axis, u);
@@ -125,7 +127,7 @@ TOFRAY_FN ConeForm seen_from(const Cone& c, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const ConeForm& cone, const Bounds& r) { return overlap(cone.bounds, r); }
+TOFRAY_INLINE bool can_meet(const ConeForm& cone, const Bounds& r) { return overlap(cone.bounds, r); }
 
 /// Where a line is within the side, as if that had no end: between low and high; nowhere where low > high.
 template <class F>
@@ -142,7 +144,7 @@ struct Between {
 /// Where A >= 0 the line meets the side twice or its image, which is above the tip: there h·S = l_a − τ·d_a is below 0. Where A < 0 it
 /// meets each of them once, and what is within the side ends (d_a > 0) or begins there.
 template <class F>
-TOFRAY_FN Between<F> within_side(F lu, F lv, F la, F u, F v, F a, F rest) {
+TOFRAY_INLINE Between<F> within_side(F lu, F lv, F la, F u, F v, F a, F rest) {
   const F curve = num::fnma(a, a, num::fma(u, u, v * v)), power = num::fnma(la, la, num::fma(lu, lu, lv * lv));
   const F b = num::fnma(la, a, num::fma(lu, u, lv * v));
   const F q = b + num::copy_sign(num::sqrt(num::max(rest, F(0.0f))), b);
@@ -155,7 +157,7 @@ TOFRAY_FN Between<F> within_side(F lu, F lv, F la, F u, F v, F a, F rest) {
 }
 
 template <class F>
-TOFRAY_FN Crossing<F> crossing(const ConeForm& c, const Ray<F>& ray, F a) {
+TOFRAY_INLINE Crossing<F> crossing(const ConeForm& c, const Ray<F>& ray, F a) {
   const F u = dot(ray, c.u), v = dot(ray, c.v), k = dot(ray, c.tip) * (ray.inverse_length * ray.inverse_length);
   const F e = num::fnma(F(c.line), a, F(c.top) * u), rest = num::fnma(F(c.power) * v, v, e * e);
   const Between<F> side = within_side(num::fnma(k, u, F(c.line)), -(k * v), num::fnma(k, a, F(c.top)), u, v, a, rest);
@@ -167,13 +169,13 @@ TOFRAY_FN Crossing<F> crossing(const ConeForm& c, const Ray<F>& ray, F a) {
 
 /// `side` is 0 for the side, 1 for the base.
 template <class F>
-TOFRAY_FN F inverse_range(const ConeForm& c, const Ray<F>& ray, Int<F>& side) {
+TOFRAY_INLINE F inverse_range(const ConeForm& c, const Ray<F>& ray, Int<F>& side) {
   const F a = dot(ray, c.a);
   const Crossing<F> base{num::fma(a, F(c.near_scale), F(c.near_offset)), num::max(a * F(c.far_scale), F(0.0f))};
   return meet(crossing(c, ray, a), base, c.inside != 0, side);
 }
 
-TOFRAY_FN ConeAlong seen_along(const Cone& c, const Vec& s) {
+TOFRAY_INLINE ConeAlong seen_along(const Cone& c, const Vec& s) {
   ConeAlong form{};
   const double sine = sine_of(c), cosine = cosine_of(c);
   const Vec way = way_across(s, c.axis), u = cosine * way, v = cosine * cross(c.axis, way), a = sine * c.axis;
@@ -188,7 +190,7 @@ TOFRAY_FN ConeAlong seen_along(const Cone& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const ConeAlong& c, const Place<F>& p, const float*, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const ConeAlong& c, const Place<F>& p, const float*, F margin) {
   const F u = affine(p, c.u, c.offset[0]), v = affine(p, c.v, c.offset[1]), a = affine(p, c.a, c.offset[2]);
   const F k = affine(p, c.back, c.offset[3]), light_u = F(c.light_u), light_a = F(c.light_a);
   const F e = num::fnma(a, light_u, u * light_a), rest = num::fnma(F(c.curve) * v, v, e * e);
@@ -203,7 +205,7 @@ TOFRAY_FN Mask<F> blocks(const ConeAlong& c, const Place<F>& p, const float*, F 
   return leave > enter + margin;
 }
 
-TOFRAY_FN ConeFree free_of(const Cone& c) {
+TOFRAY_INLINE ConeFree free_of(const Cone& c) {
   ConeFree form{};
   const Vec u = way_across({0, 0, 0}, c.axis), v = cross(c.axis, u);
   copy(cosine_of(c) * u, form.u), copy(cosine_of(c) * v, form.v), copy(sine_of(c) * c.axis, form.a), copy(c.tip, form.tip);
@@ -213,13 +215,11 @@ TOFRAY_FN ConeFree free_of(const Cone& c) {
 
 /// From the line's point that is nearest to the tip, so that no number is larger than what it passes.
 template <class F>
-TOFRAY_FN Passage<F> passage(const ConeFree& c, const FreeRay<F>& ray) {
+TOFRAY_INLINE Passage<F> passage(const ConeFree& c, const FreeRay<F>& ray) {
   const F x = F(c.tip[0]) - ray.x, y = F(c.tip[1]) - ray.y, z = F(c.tip[2]) - ray.z;
   const F k = num::fma(x, ray.dx, num::fma(y, ray.dy, z * ray.dz));
   const F lx = num::fnma(k, ray.dx, x), ly = num::fnma(k, ray.dy, y), lz = num::fnma(k, ray.dz, z);  // to the tip, from there
-  const auto across = [&](const float* m) __attribute__((always_inline)) {
-    return num::fma(lx, F(m[0]), num::fma(ly, F(m[1]), lz * F(m[2])));
-  };
+  const auto across = [&](const float* m) TOFRAY_LAMBDA { return num::fma(lx, F(m[0]), num::fma(ly, F(m[1]), lz * F(m[2]))); };
   const F lu = across(c.u), lv = across(c.v), la = across(c.a), u = turned(ray, c.u), v = turned(ray, c.v), a = turned(ray, c.a);
   const F e = num::fnma(lu, a, la * u), f = num::fnma(lv, a, la * v), g = num::fnma(lu, v, lv * u);
   const F rest = num::fnma(g, g, num::fma(e, e, f * f));

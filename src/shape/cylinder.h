@@ -72,7 +72,7 @@ struct Cylinder {
 
   /// Of its side: n = ((P − c) − a·((P − c)·a))/R.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+  TOFRAY_INLINE static Direction<F> normal(const Facet& of, F x, F y, F z) {
     const F curvature = F(of.number[3]), ax = F(of.number[4]), ay = F(of.number[5]), az = F(of.number[6]);
     const F along = num::fma(x, ax, num::fma(y, ay, z * az));
     return {num::fma(num::fnma(along, ax, x), curvature, F(of.number[0])), num::fma(num::fnma(along, ay, y), curvature, F(of.number[1])),
@@ -80,26 +80,26 @@ struct Cylinder {
   }
 };
 
-TOFRAY_FN Cylinder in_frame(const Cylinder& c, const Frame& frame) {
+TOFRAY_INLINE Cylinder in_frame(const Cylinder& c, const CoordinateFrame& frame) {
   return {frame.point(c.center), frame.direction(c.axis), c.radius, c.half};
 }
 
-TOFRAY_FN Span span_along(const Cylinder& c, const Vec& a) {
+TOFRAY_INLINE Span span_along(const Cylinder& c, const Vec& a) {
   return span_about(dot(c.center, a), c.half * ::fabs(dot(c.axis, a)) + c.radius * reach_across(c.axis, a));
 }
-TOFRAY_FN bool inside(const Cylinder& c, const Vec& p) {
+TOFRAY_INLINE bool inside(const Cylinder& c, const Vec& p) {
   const Vec q = p - c.center, side = across(q, c.axis);
   return dot(side, side) < c.radius * c.radius && ::fabs(dot(q, c.axis)) < c.half;
 }
 
 /// The numbers of normal() for the side about a line through c; of a sphere about c where the axis is 0.
-TOFRAY_FN void face_round(const Vec& c, const Vec& axis, double radius, Facet& out) {
+TOFRAY_INLINE void face_round(const Vec& c, const Vec& axis, double radius, Facet& out) {
   copy((-1 / radius) * across(c, axis), out.number);
   out.number[3] = single(1 / radius);
   copy(axis, out.number + 4);
 }
 
-TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
+TOFRAY_INLINE void facet_of(const Cylinder& c, int side, Facet& out) {
   if (side == 1) {
     face(c.axis, out);
     return;
@@ -108,7 +108,7 @@ TOFRAY_FN void facet_of(const Cylinder& c, int side, Facet& out) {
 }
 
 /// @param center  of what the tube is round, from the origin
-TOFRAY_FN Tube tube_round(const Vec& center, const Vec& axis, double radius) {
+TOFRAY_INLINE Tube tube_round(const Vec& center, const Vec& axis, double radius) {
   Tube tube{};
   const Vec u = way_across(center, axis), v = cross(axis, u);
   const double line = dot(center, u), power = (line - radius) * (line + radius);
@@ -119,7 +119,7 @@ TOFRAY_FN Tube tube_round(const Vec& center, const Vec& axis, double radius) {
   return tube;
 }
 
-TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
+TOFRAY_INLINE CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
   CylinderForm form{};
   const Vec center = c.center - origin, u = way_across(center, c.axis), v = cross(c.axis, u);
   form.tube = tube_round(center, c.axis, c.radius);
@@ -141,12 +141,12 @@ TOFRAY_FN CylinderForm seen_from(const Cylinder& c, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const CylinderForm& cylinder, const Bounds& r) { return overlap(cylinder.bounds, r); }
+TOFRAY_INLINE bool can_meet(const CylinderForm& cylinder, const Bounds& r) { return overlap(cylinder.bounds, r); }
 
 /// With A = d_u² + d_v², b = d_u·line, C = line² − R² the discriminant b² − A·C is R²·d_u² − C·d_v² without cancellation of large terms;
 /// q = b ± √disc with the sign of b; roots t = C/q and q/A.
 template <class F>
-TOFRAY_FN Crossing<F> crossing(const Tube& tube, const Ray<F>& ray) {
+TOFRAY_INLINE Crossing<F> crossing(const Tube& tube, const Ray<F>& ray) {
   const F u = dot(ray, tube.u), v = dot(ray, tube.v);
   const F rest = num::fnma(F(tube.power) * v, v, F(tube.radius_squared) * u * u);
   const F b = u * F(tube.line);
@@ -159,13 +159,13 @@ TOFRAY_FN Crossing<F> crossing(const Tube& tube, const Ray<F>& ray) {
 
 /// `side` is 0 for the side, 1 for the caps.
 template <class F>
-TOFRAY_FN F inverse_range(const CylinderForm& c, const Ray<F>& ray, Int<F>& side) {
+TOFRAY_INLINE F inverse_range(const CylinderForm& c, const Ray<F>& ray, Int<F>& side) {
   const F a = dot(ray, c.tube.a);
   const Crossing<F> caps{num::fma(a, F(c.near_scale), F(c.near_offset)), num::max(a * F(c.far_scale[0]), a * F(c.far_scale[1]))};
   return meet(crossing(c.tube, ray), caps, c.inside != 0, side);
 }
 
-TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
+TOFRAY_INLINE CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
   CylinderAlong form{};
   const Vec u = way_across(s, c.axis), v = cross(c.axis, u);
   copy(u, form.u), copy(v, form.v), copy(c.axis, form.a);
@@ -177,7 +177,7 @@ TOFRAY_FN CylinderAlong seen_along(const Cylinder& c, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Place<F>& p, const float*, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const CylinderAlong& c, const Place<F>& p, const float*, F margin) {
   const F u = affine(p, c.u, c.offset[0]), v = affine(p, c.v, c.offset[1]), a = affine(p, c.a, c.offset[2]);
   const F rest = num::fnma(v, v, F(c.radius_squared)), chord = num::sqrt(num::max(rest, F(0.0f)));
   const F one = (-chord - u) * F(c.inverse_u), other = (chord - u) * F(c.inverse_u);
@@ -187,7 +187,7 @@ TOFRAY_FN Mask<F> blocks(const CylinderAlong& c, const Place<F>& p, const float*
   return (rest > F(0.0f)) & (leave > enter + margin);
 }
 
-TOFRAY_FN CylinderFree free_of(const Cylinder& c) {
+TOFRAY_INLINE CylinderFree free_of(const Cylinder& c) {
   CylinderFree form{};
   copy(c.center, form.c), copy(c.axis, form.a);
   form.at = single(-dot(c.center, c.axis)), form.half = single(c.half), form.radius_squared = single(c.radius * c.radius);
@@ -197,7 +197,7 @@ TOFRAY_FN CylinderFree free_of(const Cylinder& c) {
 /// Where a line is within R of another line: from its point that is nearest to it, R² less the square of their distance says how far. A line
 /// along the other is within it everywhere, or nowhere.
 template <class F>
-TOFRAY_FN Passage<F> within_side(const CylinderFree& c, const FreeRay<F>& ray, F place, F step, Int<F> facet) {
+TOFRAY_INLINE Passage<F> within_side(const CylinderFree& c, const FreeRay<F>& ray, F place, F step, Int<F> facet) {
   const F px = num::fnma(place, F(c.a[0]), ray.x - F(c.c[0])), py = num::fnma(place, F(c.a[1]), ray.y - F(c.c[1])),
           pz = num::fnma(place, F(c.a[2]), ray.z - F(c.c[2]));
   const F ex = num::fnma(step, F(c.a[0]), ray.dx), ey = num::fnma(step, F(c.a[1]), ray.dy), ez = num::fnma(step, F(c.a[2]), ray.dz);
@@ -210,7 +210,7 @@ TOFRAY_FN Passage<F> within_side(const CylinderFree& c, const FreeRay<F>& ray, F
 }
 
 template <class F>
-TOFRAY_FN Passage<F> passage(const CylinderFree& c, const FreeRay<F>& ray) {
+TOFRAY_INLINE Passage<F> passage(const CylinderFree& c, const FreeRay<F>& ray) {
   const F place = placed(ray, c.a, c.at), step = turned(ray, c.a);
   return common_passage(within_side(c, ray, place, step, Int<F>(0)), between_planes(place, step, F(c.half), Int<F>(1)));
 }

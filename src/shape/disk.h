@@ -57,13 +57,15 @@ struct Disk {
   }
 };
 
-TOFRAY_FN Disk in_frame(const Disk& d, const Frame& frame) { return {frame.point(d.center), frame.direction(d.normal), d.radius}; }
+TOFRAY_INLINE Disk in_frame(const Disk& d, const CoordinateFrame& frame) {
+  return {frame.point(d.center), frame.direction(d.normal), d.radius};
+}
 
-TOFRAY_FN Span span_along(const Disk& d, const Vec& a) { return span_about(dot(d.center, a), d.radius * reach_across(d.normal, a)); }
-TOFRAY_FN void facet_of(const Disk& d, int, Facet& out) { face(d.normal, out); }
+TOFRAY_INLINE Span span_along(const Disk& d, const Vec& a) { return span_about(dot(d.center, a), d.radius * reach_across(d.normal, a)); }
+TOFRAY_INLINE void facet_of(const Disk& d, int, Facet& out) { face(d.normal, out); }
 
 /// A disk that is seen edge-on is hit by no ray.
-TOFRAY_FN DiskForm seen_from(const Disk& d, const Vec& origin) {
+TOFRAY_INLINE DiskForm seen_from(const Disk& d, const Vec& origin) {
   DiskForm form{};
   form.bounds = nowhere();
   const Vec center = d.center - origin, x = way_across(center, d.normal), y = cross(d.normal, x);
@@ -80,16 +82,16 @@ TOFRAY_FN DiskForm seen_from(const Disk& d, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const DiskForm& disk, const Bounds& r) { return overlap(disk.bounds, r); }
+TOFRAY_INLINE bool can_meet(const DiskForm& disk, const Bounds& r) { return overlap(disk.bounds, r); }
 
 template <class F>
-TOFRAY_FN F inverse_range(const DiskForm& disk, const Ray<F>& ray) {
+TOFRAY_INLINE F inverse_range(const DiskForm& disk, const Ray<F>& ray) {
   const F x = dot(ray, disk.x), y = dot(ray, disk.y), n = dot(ray, disk.n);
   return num::select(num::fma(x, x, y * y) <= n * n, n * F(disk.inverse_distance), F(0.0f));
 }
 
 /// Light that travels along it is not stopped: t = 0.
-TOFRAY_FN DiskAlong seen_along(const Disk& d, const Vec& s) {
+TOFRAY_INLINE DiskAlong seen_along(const Disk& d, const Vec& s) {
   DiskAlong form{};
   const double along = dot(d.normal, s);
   if (::fabs(along) <= 1e-6) return form;
@@ -103,12 +105,12 @@ TOFRAY_FN DiskAlong seen_along(const Disk& d, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const DiskAlong& disk, const Place<F>& p, const float*, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const DiskAlong& disk, const Place<F>& p, const float*, F margin) {
   const F x = affine(p, disk.x, disk.offset[0]), y = affine(p, disk.y, disk.offset[1]);
   return (num::fma(x, x, y * y) <= F(disk.radius_squared)) & (affine(p, disk.m, disk.c) > margin);
 }
 
-TOFRAY_FN DiskFree free_of(const Disk& d) {
+TOFRAY_INLINE DiskFree free_of(const Disk& d) {
   DiskFree form{};
   copy(d.center, form.c), copy(d.normal, form.n);
   form.offset = single(-dot(d.normal, d.center)), form.radius_squared = single(d.radius * d.radius);
@@ -116,7 +118,7 @@ TOFRAY_FN DiskFree free_of(const Disk& d) {
 }
 
 template <class F>
-TOFRAY_FN F distance_to(const DiskFree& disk, const FreeRay<F>& ray, F least, Int<F>& facet) {
+TOFRAY_INLINE F distance_to(const DiskFree& disk, const FreeRay<F>& ray, F least, Int<F>& facet) {
   facet = Int<F>(0);
   const F along = turned(ray, disk.n), t = -placed(ray, disk.n, disk.offset) * inverse_of(along);
   const F x = num::fma(t, ray.dx, ray.x - F(disk.c[0])), y = num::fma(t, ray.dy, ray.y - F(disk.c[1])),

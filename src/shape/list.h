@@ -65,11 +65,11 @@ struct OneForEach<Each, List<T...>> : Each<T>... {
 template <template <class> class Each>
 struct ByShape : OneForEach<Each, Shapes> {
   template <class T>
-  TOFRAY_FN Each<T>& of() {
+  TOFRAY_INLINE Each<T>& of() {
     return *this;
   }
   template <class T>
-  TOFRAY_FN const Each<T>& of() const {
+  TOFRAY_INLINE const Each<T>& of() const {
     return *this;
   }
   bool operator==(const ByShape&) const = default;

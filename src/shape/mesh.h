@@ -39,9 +39,9 @@ constexpr int mesh_triangles_words = sizeof(MeshTriangles) / sizeof(float), mesh
 constexpr int most_mesh_levels = 28;
 
 /// The first `count` triangles of block number `block`.
-TOFRAY_FN std::int32_t leaf_of(std::int32_t block, std::int32_t count) { return ~(block * 32 + count); }
-TOFRAY_FN std::int32_t block_of(std::int32_t leaf) { return ~leaf / 32; }
-TOFRAY_FN std::int32_t count_of(std::int32_t leaf) { return ~leaf % 32; }
+TOFRAY_INLINE std::int32_t leaf_of(std::int32_t block, std::int32_t count) { return ~(block * 32 + count); }
+TOFRAY_INLINE std::int32_t block_of(std::int32_t leaf) { return ~leaf / 32; }
+TOFRAY_INLINE std::int32_t count_of(std::int32_t leaf) { return ~leaf % 32; }
 
 /// A mesh's triangles, and where they are none.
 struct MeshTree {
@@ -137,23 +137,23 @@ struct Mesh : MeshTree {
 
   /// Of its triangles, not turned to the camera.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const Facet& of, Int<F> triangle);
+  TOFRAY_INLINE static Direction<F> normal(const Facet& of, Int<F> triangle);
 };
 
-TOFRAY_FN Mesh in_frame(const Mesh& mesh, const Frame& frame) {
+TOFRAY_INLINE Mesh in_frame(const Mesh& mesh, const CoordinateFrame& frame) {
   Mesh out = mesh;
   for (int k = 0; k < 3; ++k) out.axes.row[k] = frame.direction(mesh.axes.row[k]);
   out.origin = frame.point(mesh.origin);
   return out;
 }
 
-TOFRAY_FN Span span_along(const Mesh& mesh, const Vec& a) {
+TOFRAY_INLINE Span span_along(const Mesh& mesh, const Vec& a) {
   return span_about(dot(mesh.origin, a) + dot(mesh.center, mesh.axes * a), reach_of_box(mesh.axes, mesh.half, a));
 }
 
 /// The second: where the camera's zero is in the mesh's frame, whether corners have texture coordinates and shades, and how they
 /// move.
-TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
+TOFRAY_INLINE void facet_of(const Mesh& mesh, int side, Facet& out) {
   if (side == 1) {
     copy(mesh.axes * (-1.0 * mesh.origin), out.number);
     out.number[3] = mesh.has_texcoords != 0 ? 1.0f : 0.0f, out.number[4] = mesh.has_shades != 0 ? 1.0f : 0.0f;
@@ -165,7 +165,7 @@ TOFRAY_FN void facet_of(const Mesh& mesh, int side, Facet& out) {
 }
 
 /// The largest coordinate of the mesh's box as seen from a point of its frame.
-TOFRAY_FN double reach(const Mesh& mesh, const Vec& from) {
+TOFRAY_INLINE double reach(const Mesh& mesh, const Vec& from) {
   double most = 0;
   for (int k = 0; k < 3; ++k) most = ::fmax(most, ::fabs(mesh.center[k] - from[k]) + mesh.half[k]);
   return most;
@@ -178,13 +178,13 @@ constexpr bool has_beams = num::lanes<F> > 1;
 /// By how much boxes are widened: some 16 roundings of the largest coordinate along the way, and what is rounded when it is added to
 /// the origin, or taken times the inverse direction with it.
 template <class F>
-TOFRAY_FN F mesh_slack(F reach, F origin) {
+TOFRAY_INLINE F mesh_slack(F reach, F origin) {
   return reach * F(0x1p-19f) + origin * F(0x1p-22f);
 }
 /// Nothing of a mesh is nearer to the camera [m].
 constexpr float nearest_mesh = 1e-6f;
 
-TOFRAY_FN MeshForm seen_from(const Mesh& mesh, const Vec& origin) {
+TOFRAY_INLINE MeshForm seen_from(const Mesh& mesh, const Vec& origin) {
   MeshForm form{};
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], form.turn[k]);
   const Vec from = mesh.axes * (origin - mesh.origin);
@@ -200,17 +200,17 @@ TOFRAY_FN MeshForm seen_from(const Mesh& mesh, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN float begins_at(const Mesh& mesh, const Vec& origin) {
+TOFRAY_INLINE float begins_at(const Mesh& mesh, const Vec& origin) {
   const Vec from = mesh.axes * (origin - mesh.origin);
   return single(span_along(mesh, {0, 0, 1}).low - origin.z - depth_room * (reach(mesh, from) + length(from)));
 }
-TOFRAY_FN float begins_along(const Mesh& mesh, const Vec& s) {
+TOFRAY_INLINE float begins_along(const Mesh& mesh, const Vec& s) {
   return single(-span_along(mesh, s).high - depth_room * (reach(mesh, {0, 0, 0}) + length(mesh.origin)));
 }
 
-TOFRAY_FN bool can_meet(const MeshForm& mesh, const Bounds& r) { return overlap(mesh.bounds, r); }
+TOFRAY_INLINE bool can_meet(const MeshForm& mesh, const Bounds& r) { return overlap(mesh.bounds, r); }
 
-TOFRAY_FN MeshAlong seen_along(const Mesh& mesh, const Vec& s) {
+TOFRAY_INLINE MeshAlong seen_along(const Mesh& mesh, const Vec& s) {
   MeshAlong form{};
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], form.turn[k]);
   copy(mesh.axes * (-1.0 * mesh.origin), form.offset);
@@ -228,10 +228,10 @@ struct Sheared {
   F length;  ///< of d along z
 };
 
-TOFRAY_FN int next_coordinate(int k) { return k == 2 ? 0 : k + 1; }
+TOFRAY_INLINE int next_coordinate(int k) { return k == 2 ? 0 : k + 1; }
 
 template <class F>
-TOFRAY_FN Sheared<F> sheared(const F (&direction)[3], int z) {
+TOFRAY_INLINE Sheared<F> sheared(const F (&direction)[3], int z) {
   const int x = next_coordinate(z), y = next_coordinate(x);
   // (Lanes of another longest coordinate are computed along with these, and thrown away.)
   const F length = num::select(direction[z] == F(0.0f), F(1.0f), direction[z]);
@@ -249,7 +249,7 @@ struct MeshParts {
 /// @param parts   out: where in the triangle that is
 /// \tparam look_first  whether t is left out where no ray meets it: a division less, but a branch that nobody can foresee
 template <bool look_first, class F, class Corner>
-TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t, MeshParts<F>& parts) {
+TOFRAY_INLINE Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t, MeshParts<F>& parts) {
   F x[3], y[3], z[3];
   for (int i = 0; i < 3; ++i) {
     z[i] = corner(i, ray.z);
@@ -267,14 +267,14 @@ TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t, MeshPa
   return inside;
 }
 template <bool look_first, class F, class Corner>
-TOFRAY_FN Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t) {
+TOFRAY_INLINE Mask<F> meet(const Corner& corner, const Sheared<F>& ray, F& t) {
   MeshParts<F> parts;
   return meet<look_first>(corner, ray, t, parts);
 }
 
 /// The nearer of what was hit so far and the triangles that are met at t. @return a mask of the rays that it is nearer for
 template <class F>
-TOFRAY_FN Mask<F> take_nearer(Mask<F> inside, F t, std::int32_t number, std::int32_t triangle, F shortest, MeshHit<F>& hit) {
+TOFRAY_INLINE Mask<F> take_nearer(Mask<F> inside, F t, std::int32_t number, std::int32_t triangle, F shortest, MeshHit<F>& hit) {
   const auto nearer = inside & (t > shortest) & ((t < hit.t) | ((t == hit.t) & (Int<F>(number) < hit.number)));
   hit.t = num::select(nearer, t, hit.t);
   hit.number = num::select(nearer, Int<F>(number), hit.number);
@@ -284,7 +284,7 @@ TOFRAY_FN Mask<F> take_nearer(Mask<F> inside, F t, std::int32_t number, std::int
 
 /// A ray from the form's origin, in the mesh's frame.
 template <class F>
-TOFRAY_FN MeshRay<F> in_mesh(const MeshForm& form, const F (&direction)[3]) {
+TOFRAY_INLINE MeshRay<F> in_mesh(const MeshForm& form, const F (&direction)[3]) {
   MeshRay<F> out;
   for (int k = 0; k < 3; ++k) {
     const float* m = form.turn[k];
@@ -297,7 +297,7 @@ TOFRAY_FN MeshRay<F> in_mesh(const MeshForm& form, const F (&direction)[3]) {
 
 /// The way from a point to the light.
 template <class F>
-TOFRAY_FN MeshRay<F> in_mesh(const MeshAlong& form, const F (&point)[3]) {
+TOFRAY_INLINE MeshRay<F> in_mesh(const MeshAlong& form, const F (&point)[3]) {
   MeshRay<F> out;
   F away = F(0.0f);
   for (int k = 0; k < 3; ++k) {
@@ -312,7 +312,7 @@ TOFRAY_FN MeshRay<F> in_mesh(const MeshAlong& form, const F (&point)[3]) {
 
 /// (B − A) × (C − A) of one facet's triangles, in the camera's frame and of unit length; zero where a triangle has no area.
 template <class F>
-TOFRAY_FN Direction<F> Mesh::normal(const Facet& facet, Int<F> triangle) {
+TOFRAY_INLINE Direction<F> Mesh::normal(const Facet& facet, Int<F> triangle) {
   const float* corners = facet.triangles->corner[0][0];
   const Int<F> place = triangle & Int<F>(block_width - 1);
   const Int<F> at = (triangle - place) * Int<F>(mesh_triangles_words / block_width) + place;
@@ -329,13 +329,13 @@ TOFRAY_FN Direction<F> Mesh::normal(const Facet& facet, Int<F> triangle) {
   const F size = num::sqrt(num::fma(n[0], n[0], num::fma(n[1], n[1], n[2] * n[2])));
   const F unit = F(1.0f) / num::max(size, F(1e-30f));
   const float* turn = facet.number;
-  const auto turned = [&](int c) __attribute__((always_inline)) {
+  const auto turned = [&](int c) TOFRAY_LAMBDA {
     return num::fma(n[0], F(turn[c]), num::fma(n[1], F(turn[3 + c]), n[2] * F(turn[6 + c]))) * unit;
   };
   return {turned(0), turned(1), turned(2)};
 }
 
-TOFRAY_FN MeshFree free_of(const Mesh& mesh) {
+TOFRAY_INLINE MeshFree free_of(const Mesh& mesh) {
   MeshFree form{};
   for (int k = 0; k < 3; ++k) copy(mesh.axes.row[k], form.turn[k]);
   copy(mesh.axes * (-1.0 * mesh.origin), form.offset);
@@ -345,7 +345,7 @@ TOFRAY_FN MeshFree free_of(const Mesh& mesh) {
 }
 
 template <class F>
-TOFRAY_FN MeshRay<F> in_mesh(const MeshFree& form, const FreeRay<F>& ray) {
+TOFRAY_INLINE MeshRay<F> in_mesh(const MeshFree& form, const FreeRay<F>& ray) {
   MeshRay<F> out;
   F away = F(0.0f);
   for (int k = 0; k < 3; ++k) {

@@ -8,15 +8,15 @@
 namespace tofray::shape {
 
 template <class F>
-TOFRAY_FN F load_all(const float* from) {
+TOFRAY_INLINE F load_all(const float* from) {
   return num::load<F>(from, num::lanes<F>);
 }
 template <class F>
-TOFRAY_FN void store_all(float* to, F values) {
+TOFRAY_INLINE void store_all(float* to, F values) {
   num::store(to, values, num::lanes<F>);
 }
 
-TOFRAY_FN std::uint32_t first_of(int count) { return (1u << count) - 1u; }
+TOFRAY_INLINE std::uint32_t first_of(int count) { return (1u << count) - 1u; }
 
 /// Rays of a pack, to go through a mesh one by one.
 template <class F>
@@ -29,7 +29,7 @@ struct MeshRaysApart {
 };
 
 template <class F>
-TOFRAY_FN void take_apart(const MeshRay<F>& ray, F shortest, const MeshHit<F>& hit, MeshRaysApart<F>& out) {
+TOFRAY_INLINE void take_apart(const MeshRay<F>& ray, F shortest, const MeshHit<F>& hit, MeshRaysApart<F>& out) {
   constexpr int n = num::lanes<F>;
   const F(&d)[3] = ray.direction;
   for (int k = 0; k < 3; ++k) {
@@ -40,7 +40,7 @@ TOFRAY_FN void take_apart(const MeshRay<F>& ray, F shortest, const MeshHit<F>& h
   }
   const Int<F> longest = longest_of(d);
   const auto is_x = longest == Int<F>(0), is_y = longest == Int<F>(1);
-  const auto turned_to = [&](F x, F y, F z) __attribute__((always_inline)) { return num::select(is_x, x, num::select(is_y, y, z)); };
+  const auto turned_to = [&](F x, F y, F z) TOFRAY_LAMBDA { return num::select(is_x, x, num::select(is_y, y, z)); };
   const F along = turned_to(d[0], d[1], d[2]), length = num::select(along == F(0.0f), F(1.0f), along);
   num::store(out.slope_x, turned_to(d[1], d[2], d[0]) / length, n), num::store(out.slope_y, turned_to(d[2], d[0], d[1]) / length, n);
   num::store(out.length, length, n), num::store(out.longest, longest, n);
@@ -54,7 +54,7 @@ TOFRAY_FN void take_apart(const MeshRay<F>& ray, F shortest, const MeshHit<F>& h
 template <bool any, bool cut, class F>
 class MeshAlone {
  public:
-  TOFRAY_FN MeshAlone(const MeshTree& mesh, MeshRaysApart<F>& rays, int i) : mesh_(mesh), rays_(rays), i_(i) {
+  TOFRAY_INLINE MeshAlone(const MeshTree& mesh, MeshRaysApart<F>& rays, int i) : mesh_(mesh), rays_(rays), i_(i) {
     const int z = rays.longest[i], x = next_coordinate(z);
     along_ = {x, next_coordinate(x), z, F(rays.slope_x[i]), F(rays.slope_y[i]), F(rays.length[i])};
     for (int k = 0; k < 3; ++k) {
@@ -69,7 +69,7 @@ class MeshAlone {
     t_ = rays.t[i];
   }
 
-  TOFRAY_FN void run() {
+  TOFRAY_INLINE void run() {
     std::int32_t child = 0;
     int waiting = 0;
     while (true) {
@@ -89,11 +89,10 @@ class MeshAlone {
   using Eight = num::Eight<F>;
 
   /// Goes to the nearest child that the ray enters; the others wait, the nearest on top. @return false where it enters none
-  TOFRAY_FN bool open(const MeshNode& node, std::int32_t& child, int& waiting) {
+  TOFRAY_INLINE bool open(const MeshNode& node, std::int32_t& child, int& waiting) {
     const float* planes = node.low[0];  // those of `high` follow
-    const auto at = [&](int plane, int k, Eight from) __attribute__((always_inline)) {
-      return num::fms(load_all<Eight>(planes + plane), inverse_[k], from);
-    };
+    const auto at = [&](int plane, int k, Eight from)
+                        TOFRAY_LAMBDA { return num::fms(load_all<Eight>(planes + plane), inverse_[k], from); };
     const Eight enter = num::max(num::max(at(near_[0], 0, from_near_[0]), at(near_[1], 1, from_near_[1])),
                                  num::max(at(near_[2], 2, from_near_[2]), shortest_));
     const Eight leave =
@@ -129,12 +128,12 @@ class MeshAlone {
   }
 
   /// @return whether a triangle of the block is nearer
-  TOFRAY_FN bool test(std::int32_t leaf) {
+  TOFRAY_INLINE bool test(std::int32_t leaf) {
     const MeshTriangles& block = mesh_.triangles[block_of(leaf)];
     bool found = false;
     for (int first = 0, count = count_of(leaf); first < count; first += num::lanes<F>) {
       F t = F(0.0f);
-      const auto corner = [&](int c, int k) __attribute__((always_inline)) { return load_all<F>(block.corner[c][k] + first) - origin_[k]; };
+      const auto corner = [&](int c, int k) TOFRAY_LAMBDA { return load_all<F>(block.corner[c][k] + first) - origin_[k]; };
       MeshParts<F> parts;
       const auto inside = meet<true>(corner, along_, t, parts);
       if (!num::any(inside)) continue;
@@ -154,8 +153,8 @@ class MeshAlone {
     return found;
   }
 
-  TOFRAY_FN bool is_there(const MeshParts<F>& parts, int at, std::int32_t triangle) const {
-    const auto of_lane = [&](F a) __attribute__((always_inline)) {
+  TOFRAY_INLINE bool is_there(const MeshParts<F>& parts, int at, std::int32_t triangle) const {
+    const auto of_lane = [&](F a) TOFRAY_LAMBDA {
       alignas(64) float each[num::lanes<F>];
       store_all(each, a);
       return each[at];
@@ -176,7 +175,7 @@ class MeshAlone {
 };
 
 template <bool any, bool cut, class F>
-TOFRAY_APART void search_alone(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+TOFRAY_NOINLINE void search_alone(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
   MeshRaysApart<F> rays;
   take_apart(ray, shortest, hit, rays);
   for (std::uint32_t left = num::lanes_of(wanted); left != 0; left &= left - 1)

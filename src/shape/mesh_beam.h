@@ -24,11 +24,11 @@ struct TileRays {
   alignas(64) Array slope[2];      ///< of it, by the axis of the tile's beam
 
   template <class F>
-  TOFRAY_FN static void load(const Array* arrays, int count_of_them, int at, F* out) {
+  TOFRAY_INLINE static void load(const Array* arrays, int count_of_them, int at, F* out) {
     for (int k = 0; k < count_of_them; ++k) out[k] = num::load<F>(arrays[k] + at, num::lanes<F>);
   }
   template <class S>
-  TOFRAY_FN static void load_square(const Array* arrays, int count_of_them, int at, S* out) {
+  TOFRAY_INLINE static void load_square(const Array* arrays, int count_of_them, int at, S* out) {
     for (int k = 0; k < count_of_them; ++k) out[k] = num::load_square<S>(arrays[k] + at, row);
   }
 };
@@ -47,18 +47,18 @@ struct Beam {
   float begin;  ///< nothing is met before this depth, which is sign·z
   Side side[2];
 
-  TOFRAY_FN void start(const MeshForm& form) {
+  TOFRAY_INLINE void start(const MeshForm& form) {
     for (int k = 0; k < 3; ++k) origin[k] = form.origin[k];
     slack = 2 * form.slack;
   }
-  TOFRAY_FN void go_along(int axis, bool forward) {
+  TOFRAY_INLINE void go_along(int axis, bool forward) {
     z = axis, sign = forward ? 1.0f : -1.0f;
     side[0].x = next_coordinate(z), side[1].x = next_coordinate(side[0].x);
     begin = sign * origin[z] - slack;
   }
-  [[nodiscard]] TOFRAY_FN bool ahead() const { return sign > 0; }
+  [[nodiscard]] TOFRAY_INLINE bool ahead() const { return sign > 0; }
   /// Its rays have slopes, x by z, between these.
-  TOFRAY_FN void bound(Side& s, float least, float largest) const {
+  TOFRAY_INLINE void bound(Side& s, float least, float largest) const {
     s.from = ahead() ? least : largest, s.to = ahead() ? largest : least;
     s.room = slack * (1 + num::max(num::abs(least), num::abs(largest)));
     s.at = num::fnma(s.from, origin[z], origin[s.x]) - s.room;
@@ -73,14 +73,14 @@ struct BeamBoxes {
   const float *low[3], *high[3];
 
   /// Of these boxes those that are not outside the beam, nor deeper than `far`. @param near  out: the depth at which each one begins
-  TOFRAY_FN num::Mask<V> within(const Beam& beam, float far, V& near) const {
+  TOFRAY_INLINE num::Mask<V> within(const Beam& beam, float far, V& near) const {
     near = V(beam.sign) * load_all<V>(beam.ahead() ? low[beam.z] : high[beam.z]);
     const V end = V(beam.sign) * load_all<V>(beam.ahead() ? high[beam.z] : low[beam.z]);
     return between(beam, beam.side[0]) & between(beam, beam.side[1]) & (near <= V(far)) & (end >= V(beam.begin));
   }
 
  private:
-  TOFRAY_FN num::Mask<V> between(const Beam& beam, const Beam::Side& s) const {
+  TOFRAY_INLINE num::Mask<V> between(const Beam& beam, const Beam::Side& s) const {
     const V at = num::fnma(V(s.from), load_all<V>(s.from > 0 ? low[beam.z] : high[beam.z]), load_all<V>(high[s.x]));
     const V until = num::fnma(V(s.to), load_all<V>(s.to > 0 ? high[beam.z] : low[beam.z]), load_all<V>(low[s.x]));
     return (at >= V(s.at)) & (until <= V(s.until));
@@ -89,7 +89,7 @@ struct BeamBoxes {
 
 /// Children of a node that a beam meets, a bit for each.
 template <class V>
-TOFRAY_FN std::uint32_t children_in(const MeshNode& node, const Beam& beam, float far, V& near) {
+TOFRAY_INLINE std::uint32_t children_in(const MeshNode& node, const Beam& beam, float far, V& near) {
   const BeamBoxes<V> boxes{{node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]}};
   return num::lanes_of(boxes.within(beam, far, near)) & first_of(node.children);
 }
@@ -111,7 +111,7 @@ struct TileQueue {
 
   /// (No branch for each box: nobody can foresee which of the eight are met.)
   template <class Eight>
-  TOFRAY_FN void add(std::int32_t node, std::uint32_t met, Eight near_of) {
+  TOFRAY_INLINE void add(std::int32_t node, std::uint32_t met, Eight near_of) {
     alignas(64) float nears[mesh_width];
     store_all(nears, near_of);
     for (int i = 0; i < mesh_width; ++i) {
@@ -119,12 +119,12 @@ struct TileQueue {
       end += static_cast<int>(met >> i & 1u);
     }
   }
-  [[nodiscard]] TOFRAY_FN bool has_room() const { return end + mesh_width <= most; }
+  [[nodiscard]] TOFRAY_INLINE bool has_room() const { return end + mesh_width <= most; }
 };
 
 /// Puts numbers >= 0 in their order, to 1 in 65,536. @param place  out: of each one
 template <class F>
-TOFRAY_FN void order(const float* numbers, int count, int* place) {
+TOFRAY_INLINE void order(const float* numbers, int count, int* place) {
   constexpr int n = num::lanes<F>;
   constexpr std::uint32_t low_bits = 127;
   static_assert(TileEntries::most <= low_bits && TileEntries::most % n == 0);
@@ -137,14 +137,14 @@ TOFRAY_FN void order(const float* numbers, int count, int* place) {
   }
 }
 /// What comes later in that order is not less than this.
-TOFRAY_FN float at_least(float number) { return number * (1 - 0x1p-15f); }
+TOFRAY_INLINE float at_least(float number) { return number * (1 - 0x1p-15f); }
 
 /// The boxes that a tile's beam meets, opened level by level until there are many.
 template <class F>
-TOFRAY_APART void find_entries(const MeshNode* nodes, const Beam& beam, float far, TileEntries& out) {
+TOFRAY_NOINLINE void find_entries(const MeshNode* nodes, const Beam& beam, float far, TileEntries& out) {
   using Eight = num::Eight<F>;
   TileQueue queue;
-  const auto open = [&](std::int32_t number) __attribute__((always_inline)) {
+  const auto open = [&](std::int32_t number) TOFRAY_LAMBDA {
     Eight near;
     const std::uint32_t met = children_in(nodes[number], beam, far, near);
     queue.add(number, met, num::max(near - Eight(beam.begin), Eight(0.0f)));

@@ -12,8 +12,8 @@ template <bool any, bool cut, class F>
 class MeshSquare {
  public:
   /// @param of_tile  the axis is that of the tile's beam
-  TOFRAY_FN MeshSquare(const MeshForm& form, const Beam& of_tile, const F (&direction)[3], const F (&slope)[2], F shortest, Mask<F> wanted,
-                       MeshHit<F>& hit)
+  TOFRAY_INLINE MeshSquare(const MeshForm& form, const Beam& of_tile, const F (&direction)[3], const F (&slope)[2], F shortest,
+                           Mask<F> wanted, MeshHit<F>& hit)
       : form_(form), beam_(of_tile), shortest_(shortest), open_(wanted), hit_(hit) {
     for (int i = 0; i < 2; ++i) {
       const float least = num::lowest(num::select(wanted, slope[i], F(3e38f)));
@@ -30,8 +30,8 @@ class MeshSquare {
   }
 
   /// From the root.
-  TOFRAY_FN void run() { go_down(0); }
-  TOFRAY_FN void run(const TileEntries& from) {
+  TOFRAY_INLINE void run() { go_down(0); }
+  TOFRAY_INLINE void run(const TileEntries& from) {
     constexpr int n = num::lanes<F>;
     for (int first = 0; first < from.count; first += n) {
       const BeamBoxes<F> boxes{{from.low[0] + first, from.low[1] + first, from.low[2] + first},
@@ -54,7 +54,7 @@ class MeshSquare {
  private:
   using Eight = num::Eight<F>;
 
-  TOFRAY_FN void go_down(std::int32_t child) {
+  TOFRAY_INLINE void go_down(std::int32_t child) {
     int waiting = 0;
     while (true) {
       if (child < 0) {
@@ -70,7 +70,7 @@ class MeshSquare {
   }
 
   /// Puts the children that the beam meets on the stack, the nearest on top.
-  TOFRAY_FN void open(const MeshNode& node, int& waiting) {
+  TOFRAY_INLINE void open(const MeshNode& node, int& waiting) {
     Eight near;
     std::uint32_t met = children_in(node, beam_, far_, near);
     alignas(64) float nears[mesh_width];
@@ -85,7 +85,7 @@ class MeshSquare {
   }
 
   /// Nothing deeper is nearer than what the rays have hit.
-  TOFRAY_FN void see_how_far() {
+  TOFRAY_INLINE void see_how_far() {
     far_ = num::highest(num::select(open_, hit_.t * depth_per_t_, F(-3e38f))) + beam_.sign * beam_.origin[beam_.z] + beam_.slack;
   }
 
@@ -95,8 +95,8 @@ class MeshSquare {
   };
 
   /// Of a block's triangles those that are not outside the beam.
-  TOFRAY_FN std::uint32_t triangles_in(const MeshTriangles& block, Corners& corners) const {
-    const auto from_origin = [&](int c, int k) __attribute__((always_inline)) {
+  TOFRAY_INLINE std::uint32_t triangles_in(const MeshTriangles& block, Corners& corners) const {
+    const auto from_origin = [&](int c, int k) TOFRAY_LAMBDA {
       const F out = load_all<F>(block.corner[c][k]) - F(beam_.origin[k]);
       store_all(corners.at[c][k], out);
       return out;
@@ -116,14 +116,14 @@ class MeshSquare {
     return num::lanes_of(met);
   }
 
-  TOFRAY_FN void test(std::int32_t leaf) {
+  TOFRAY_INLINE void test(std::int32_t leaf) {
     const MeshTriangles& block = form_.triangles[block_of(leaf)];
     Corners corners;
     auto changed = F(1.0f) < F(0.0f);
     for (std::uint32_t left = triangles_in(block, corners) & first_of(count_of(leaf)); left != 0; left &= left - 1) {
       const int i = __builtin_ctz(left);
       const std::int32_t number = block.number[i], triangle = block_of(leaf) * block_width + i;
-      const auto corner = [&](int c, int k) __attribute__((always_inline)) { return F(corners.at[c][k][i]); };
+      const auto corner = [&](int c, int k) TOFRAY_LAMBDA { return F(corners.at[c][k][i]); };
       changed = changed | test(corner, along_, main_, number, triangle);
       for (int k = 0; k < 3 && has_others_; ++k) {
         if (k != beam_.z) changed = changed | test(corner, other_[k], others_[k], number, triangle);
@@ -136,7 +136,7 @@ class MeshSquare {
 
   /// @return the rays that it is nearer for. (No branch where nothing is cut out: it is met as often as not, and the next triangle need not wait for it.)
   template <class Corner>
-  TOFRAY_FN Mask<F> test(const Corner& corner, const Sheared<F>& along, Mask<F> its, std::int32_t number, std::int32_t triangle) {
+  TOFRAY_INLINE Mask<F> test(const Corner& corner, const Sheared<F>& along, Mask<F> its, std::int32_t number, std::int32_t triangle) {
     F t = F(0.0f);
     MeshParts<F> parts;
     auto inside = open_ & its & meet<false>(corner, along, t, parts);
@@ -162,7 +162,7 @@ class MeshSquare {
 
 /// Four rays in each of four rows, from ray number `at` on.
 template <bool any, bool cut, class F>
-TOFRAY_APART void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at) {
+TOFRAY_NOINLINE void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at) {
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
   const auto wanted = hit.t > F(0.0f);
   if (num::any(wanted)) {
@@ -177,7 +177,7 @@ TOFRAY_APART void search_square(const MeshForm& form, const Beam& beam, const Ti
 
 /// Sixteen rays of one origin, from the root: as a beam or, where they are no beam or few, each by itself.
 template <bool any, class F>
-TOFRAY_APART void search_from_root(const MeshForm& form, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+TOFRAY_NOINLINE void search_from_root(const MeshForm& form, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
   constexpr int few = 3;
   const F(&d)[3] = ray.direction;
   const int axis = num::first_of(wanted, longest_of(d)), x = next_coordinate(axis), y = next_coordinate(x);
@@ -198,7 +198,7 @@ TOFRAY_APART void search_from_root(const MeshForm& form, const MeshRay<F>& ray, 
 /// The beam of a tile along the coordinate that is longest for most rays; and their slopes by it.
 /// @return false where they are no beam: some go the other way along it, or almost across
 template <class F>
-TOFRAY_FN bool make_beam(const MeshForm& form, TileRays& rays, Beam& beam, float& far) {
+TOFRAY_INLINE bool make_beam(const MeshForm& form, TileRays& rays, Beam& beam, float& far) {
   F sum[3] = {F(0.0f), F(0.0f), F(0.0f)}, direction[3];
   for (int i = 0; i < TileRays::count; i += num::lanes<F>) {
     F given[3];
@@ -243,7 +243,7 @@ TOFRAY_FN bool make_beam(const MeshForm& form, TileRays& rays, Beam& beam, float
 /// Each ray without regard to where the others go, sixteen at once. (They are neighbours, so that packs do as well as rays alone.)
 /// @param form  of one origin, or of parallel light
 template <bool any, class F, class Form>
-TOFRAY_APART void search_square_alone(const Form& form, TileRays& rays, int at) {
+TOFRAY_NOINLINE void search_square_alone(const Form& form, TileRays& rays, int at) {
   F given[3];
   TileRays::load_square(rays.given, 3, at, given);
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
@@ -255,14 +255,14 @@ TOFRAY_APART void search_square_alone(const Form& form, TileRays& rays, int at) 
 }
 
 template <class Search>
-TOFRAY_FN void each_square(const Search& search) {
+TOFRAY_INLINE void each_square(const Search& search) {
   for (int y = 0; y < flow::tile_height; y += 4)
     for (int x = 0; x < flow::tile_width; x += 4) search(y * TileRays::row + x);
 }
 
 /// What the rays of a tile meet that have one origin.
 template <bool any, class F>
-TOFRAY_FN void search_tile(const MeshForm& form, TileRays& rays) {
+TOFRAY_INLINE void search_tile(const MeshForm& form, TileRays& rays) {
   using Square = num::Square<F>;
   Beam beam;
   float far = 0;
@@ -270,19 +270,19 @@ TOFRAY_FN void search_tile(const MeshForm& form, TileRays& rays) {
     TileEntries entries;
     find_entries<Square>(form.nodes, beam, far, entries);
     if (form.cut == nullptr) {
-      each_square([&](int at) __attribute__((always_inline)) { search_square<any, false, Square>(form, beam, entries, rays, at); });
+      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, false, Square>(form, beam, entries, rays, at); });
     } else {
-      each_square([&](int at) __attribute__((always_inline)) { search_square<any, true, Square>(form, beam, entries, rays, at); });
+      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, true, Square>(form, beam, entries, rays, at); });
     }
   } else {
-    each_square([&](int at) __attribute__((always_inline)) { search_square_alone<any, Square>(form, rays, at); });
+    each_square([&](int at) TOFRAY_LAMBDA { search_square_alone<any, Square>(form, rays, at); });
   }
 }
 
 /// Searches a mesh for rays of a tile that go to the sun.
 template <bool any, class F>
-TOFRAY_FN void search_tile(const MeshAlong& form, TileRays& rays) {
-  each_square([&](int at) __attribute__((always_inline)) { search_square_alone<any, num::Square<F>>(form, rays, at); });
+TOFRAY_INLINE void search_tile(const MeshAlong& form, TileRays& rays) {
+  each_square([&](int at) TOFRAY_LAMBDA { search_square_alone<any, num::Square<F>>(form, rays, at); });
 }
 
 }  // namespace tofray::shape

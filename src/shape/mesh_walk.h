@@ -22,7 +22,7 @@ class MeshSearch {
  public:
   /// @param shortest  t must be above it
   /// @param wanted    the rays of which z is the longest coordinate
-  TOFRAY_FN MeshSearch(const MeshTree& mesh, const MeshRay<F>& ray, int z, F shortest, Mask<F> wanted, MeshHit<F>& hit)
+  TOFRAY_INLINE MeshSearch(const MeshTree& mesh, const MeshRay<F>& ray, int z, F shortest, Mask<F> wanted, MeshHit<F>& hit)
       : mesh_(mesh),
         along_(sheared(ray.direction, z)),
         origin_{ray.origin[0], ray.origin[1], ray.origin[2]},
@@ -35,7 +35,7 @@ class MeshSearch {
     }
   }
 
-  TOFRAY_FN void run() {
+  TOFRAY_INLINE void run() {
     open_node(mesh_.nodes[0]);
     while (waiting_ > 0) {
       const MeshEntry next = stack_[--waiting_];
@@ -51,7 +51,7 @@ class MeshSearch {
 
  private:
   /// Puts the children that a ray enters on the stack, the nearest on top.
-  TOFRAY_FN void open_node(const MeshNode& node) {
+  TOFRAY_INLINE void open_node(const MeshNode& node) {
     const int before = waiting_;
     for (int i = 0; i < node.children; ++i) {
       F enter = shortest_, leave = hit_.t;
@@ -68,11 +68,11 @@ class MeshSearch {
     }
   }
 
-  TOFRAY_FN void test(std::int32_t leaf) {
+  TOFRAY_INLINE void test(std::int32_t leaf) {
     const MeshTriangles& block = mesh_.triangles[block_of(leaf)];
     for (int i = 0, count = count_of(leaf); i < count; ++i) {
       F t = F(0.0f);
-      const auto corner = [&](int c, int k) __attribute__((always_inline)) { return F(block.corner[c][k][i]) - origin_[k]; };
+      const auto corner = [&](int c, int k) TOFRAY_LAMBDA { return F(block.corner[c][k][i]) - origin_[k]; };
       MeshParts<F> parts;
       auto inside = open_ & meet<true>(corner, along_, t, parts);
       if (!num::any(inside)) continue;
@@ -95,7 +95,7 @@ class MeshSearch {
 };
 
 template <bool any, bool cut, class F>
-TOFRAY_APART void search_tree(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+TOFRAY_NOINLINE void search_tree(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
   const Int<F> longest = longest_of(ray.direction);
   for (int k = 0; k < 3; ++k) {
     const auto these = wanted & (longest == Int<F>(k));
@@ -107,8 +107,8 @@ TOFRAY_APART void search_tree(const MeshTree& mesh, const MeshRay<F>& ray, F sho
 /// Two packs one after the other: the fewer rays go together, the fewer of them look at a triangle in vain.
 /// @param search  (ray, shortest, wanted, hit) of one
 template <class H, class Search>
-TOFRAY_FN void search_in_halves(const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest, num::TwinMask<H> wanted,
-                                MeshHit<num::Twin<H>>& hit, const Search& search) {
+TOFRAY_INLINE void search_in_halves(const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest, num::TwinMask<H> wanted,
+                                    MeshHit<num::Twin<H>>& hit, const Search& search) {
   MeshRay<H> a, b;
   for (int k = 0; k < 3; ++k) {
     a.origin[k] = ray.origin[k].a, a.direction[k] = ray.direction[k].a;
@@ -122,7 +122,7 @@ TOFRAY_FN void search_in_halves(const MeshRay<num::Twin<H>>& ray, num::Twin<H> s
 
 /// Looks for a triangle nearer than hit.t, which stays as it is where there is none: rays that go side by side, or one by itself.
 template <bool any, class F>
-TOFRAY_FN void search_together(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
+TOFRAY_INLINE void search_together(const MeshTree& mesh, const MeshRay<F>& ray, F shortest, Mask<F> wanted, MeshHit<F>& hit) {
   // (A ray by itself seldom asks; one search for all meshes is less code for a GPU.)
   if (num::lanes<F> == 1 || mesh.cut != nullptr) {
     search_tree<any, true, F>(mesh, ray, shortest, wanted, hit);
@@ -131,12 +131,11 @@ TOFRAY_FN void search_together(const MeshTree& mesh, const MeshRay<F>& ray, F sh
   }
 }
 template <bool any, class H>
-TOFRAY_FN void search_together(const MeshTree& mesh, const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest, num::TwinMask<H> wanted,
-                               MeshHit<num::Twin<H>>& hit) {
-  search_in_halves<H>(
-      ray, shortest, wanted, hit, [&](const MeshRay<H>& half, H from, Mask<H> its, MeshHit<H>& of_half) __attribute__((always_inline)) {
-        search_together<any>(mesh, half, from, its, of_half);
-      });
+TOFRAY_INLINE void search_together(const MeshTree& mesh, const MeshRay<num::Twin<H>>& ray, num::Twin<H> shortest, num::TwinMask<H> wanted,
+                                   MeshHit<num::Twin<H>>& hit) {
+  search_in_halves<H>(ray, shortest, wanted, hit, [&](const MeshRay<H>& half, H from, Mask<H> its, MeshHit<H>& of_half) TOFRAY_LAMBDA {
+    search_together<any>(mesh, half, from, its, of_half);
+  });
 }
 
 }  // namespace tofray::shape

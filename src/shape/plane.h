@@ -54,12 +54,14 @@ struct Plane {
 };
 
 /// Its normal is of unit length from here on.
-TOFRAY_FN Plane in_frame(const Plane& p, const Frame& frame) { return {frame.point(p.point), normalized(frame.direction(p.normal))}; }
+TOFRAY_INLINE Plane in_frame(const Plane& p, const CoordinateFrame& frame) {
+  return {frame.point(p.point), normalized(frame.direction(p.normal))};
+}
 
-TOFRAY_FN void facet_of(const Plane& p, int, Facet& out) { face(p.normal, out); }
+TOFRAY_INLINE void facet_of(const Plane& p, int, Facet& out) { face(p.normal, out); }
 
 /// m = n/(n·p). A plane through the origin is never seen.
-TOFRAY_FN PlaneForm seen_from(const Plane& p, const Vec& origin) {
+TOFRAY_INLINE PlaneForm seen_from(const Plane& p, const Vec& origin) {
   const double distance = dot(p.normal, p.point) - dot(p.normal, origin);
   PlaneForm form{};
   if (!(::fabs(distance) > 1 / huge)) return form;
@@ -68,16 +70,16 @@ TOFRAY_FN PlaneForm seen_from(const Plane& p, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN bool can_meet(const PlaneForm& plane, const Bounds& r) { return reaches(plane.m, r); }
+TOFRAY_INLINE bool can_meet(const PlaneForm& plane, const Bounds& r) { return reaches(plane.m, r); }
 
 template <class F>
-TOFRAY_FN F inverse_range(const PlaneForm& plane, const Ray<F>& ray) {
+TOFRAY_INLINE F inverse_range(const PlaneForm& plane, const Ray<F>& ray) {
   const F w = dot(ray, plane.m);
   return num::select(w > F(plane.horizon), w, F(0.0f));
 }
 
 /// Light that travels along the plane is not stopped: t = 0.
-TOFRAY_FN PlaneAlong seen_along(const Plane& p, const Vec& s) {
+TOFRAY_INLINE PlaneAlong seen_along(const Plane& p, const Vec& s) {
   const double along = dot(p.normal, s);
   PlaneAlong form{};
   if (::fabs(along) < 1e-6) return form;
@@ -87,11 +89,11 @@ TOFRAY_FN PlaneAlong seen_along(const Plane& p, const Vec& s) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const PlaneAlong& plane, const Place<F>& p, const float*, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const PlaneAlong& plane, const Place<F>& p, const float*, F margin) {
   return affine(p, plane.m, plane.c) > margin;
 }
 
-TOFRAY_FN PlaneFree free_of(const Plane& p) {
+TOFRAY_INLINE PlaneFree free_of(const Plane& p) {
   PlaneFree form{};
   copy(p.normal, form.n);
   form.offset = single(-dot(p.normal, p.point));
@@ -100,7 +102,7 @@ TOFRAY_FN PlaneFree free_of(const Plane& p) {
 
 /// Rays along it never meet it.
 template <class F>
-TOFRAY_FN F distance_to(const PlaneFree& plane, const FreeRay<F>& ray, F least, Int<F>& facet) {
+TOFRAY_INLINE F distance_to(const PlaneFree& plane, const FreeRay<F>& ray, F least, Int<F>& facet) {
   facet = Int<F>(0);
   const F along = turned(ray, plane.n), t = -placed(ray, plane.n, plane.offset) * inverse_of(along);
   return num::select((num::abs(along) > F(1e-6f)) & (t > least), t, F(never));

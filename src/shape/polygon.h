@@ -33,7 +33,7 @@ struct PolygonFree {
 
 /// The least of what `of` says of each edge.
 template <int N, class Of>
-TOFRAY_FN auto least_of(const Of& of) {
+TOFRAY_INLINE auto least_of(const Of& of) {
   static_assert(N == 3 || N == 4);
   const auto least = num::min(of(0), num::min(of(1), of(2)));
   if constexpr (N == 3) {
@@ -44,13 +44,13 @@ TOFRAY_FN auto least_of(const Of& of) {
 }
 
 template <int N>
-TOFRAY_FN Vec normal_of_corners(const Vec (&v)[N]) {
+TOFRAY_INLINE Vec normal_of_corners(const Vec (&v)[N]) {
   return cross(v[1] - v[0], v[2] - v[0]);
 }
 
 /// A polygon that is seen edge-on is hit by no ray.
 template <int N>
-TOFRAY_FN PolygonForm<N> polygon_seen_from(const Vec (&corner)[N], const Vec& origin) {
+TOFRAY_INLINE PolygonForm<N> polygon_seen_from(const Vec (&corner)[N], const Vec& origin) {
   PolygonForm<N> form{};
   form.bounds = nowhere();
   Vec v[N] = {};
@@ -75,7 +75,7 @@ TOFRAY_FN PolygonForm<N> polygon_seen_from(const Vec (&corner)[N], const Vec& or
 }
 
 template <int N>
-TOFRAY_FN bool can_meet(const PolygonForm<N>& polygon, const Bounds& r) {
+TOFRAY_INLINE bool can_meet(const PolygonForm<N>& polygon, const Bounds& r) {
   bool can = overlap(polygon.bounds, r);
   for (int i = 0; i < N; ++i) can = can && reaches(polygon.edge[i], r);
   return can;
@@ -83,7 +83,7 @@ TOFRAY_FN bool can_meet(const PolygonForm<N>& polygon, const Bounds& r) {
 
 /// d·(high + low) with twice the working precision (Ogita, Rump and Oishi 2005).
 template <class F>
-TOFRAY_FN F careful_dot(const Ray<F>& ray, const float* high, const float* low) {
+TOFRAY_INLINE F careful_dot(const Ray<F>& ray, const float* high, const float* low) {
   const F p0 = ray.x * F(high[0]), p1 = ray.y * F(high[1]), p2 = ray.z * F(high[2]);
   const F s1 = p0 + p1, t1 = s1 - p0;
   const F s2 = s1 + p2, t2 = s2 - s1;
@@ -97,22 +97,22 @@ TOFRAY_FN F careful_dot(const Ray<F>& ray, const float* high, const float* low) 
 /// agree about every ray and nothing leaks between them (watertight as in Woop, Benthin and Wald 2013). Where a ray meets a vertex
 /// exactly, the signs of all its edges are rounding and may turn round it without end: what is that small (2^-44) counts as inside.
 template <int N, class F>
-TOFRAY_FN F inverse_range(const PolygonForm<N>& polygon, const Ray<F>& ray) {
-  F least = least_of<N>([&](int i) __attribute__((always_inline)) { return dot(ray, polygon.edge[i]); });
+TOFRAY_INLINE F inverse_range(const PolygonForm<N>& polygon, const Ray<F>& ray) {
+  F least = least_of<N>([&](int i) TOFRAY_LAMBDA { return dot(ray, polygon.edge[i]); });
   const F doubt = F(0x1p-21f) * (num::abs(ray.x) + num::abs(ray.y) + num::abs(ray.z));
   if (num::any(num::abs(least) < doubt)) {
-    least = least_of<N>([&](int i) __attribute__((always_inline)) { return careful_dot(ray, polygon.edge[i], polygon.edge_low[i]); });
+    least = least_of<N>([&](int i) TOFRAY_LAMBDA { return careful_dot(ray, polygon.edge[i], polygon.edge_low[i]); });
   }
   return num::select(least >= doubt * F(-0x1p-23f), dot(ray, polygon.m), F(0.0f));
 }
 
 /// Light from s travels along it, and is not stopped.
-TOFRAY_FN bool is_along(const Vec& normal, const Vec& s) { return ::fabs(dot(normal, s)) <= 1e-6 * length(normal); }
+TOFRAY_INLINE bool is_along(const Vec& normal, const Vec& s) { return ::fabs(dot(normal, s)) <= 1e-6 * length(normal); }
 
 /// Two edges that rounding has moved outward meet farther out, by one over the sine of their angle: along/(|s × edge|·|s × next|), as the
 /// light sees them.
 template <int N>
-TOFRAY_FN double spread_of_corners(const Vec (&v)[N], const Vec& s) {
+TOFRAY_INLINE double spread_of_corners(const Vec (&v)[N], const Vec& s) {
   const Vec normal = normal_of_corners(v);
   if (is_along(normal, s)) return 1;
   double most = 0;
@@ -125,7 +125,7 @@ TOFRAY_FN double spread_of_corners(const Vec (&v)[N], const Vec& s) {
 
 /// Where light travels along it, t = 0.
 template <int N>
-TOFRAY_FN PolygonAlong<N> polygon_seen_along(const Vec (&v)[N], const Vec& s) {
+TOFRAY_INLINE PolygonAlong<N> polygon_seen_along(const Vec (&v)[N], const Vec& s) {
   PolygonAlong<N> form{};
   const Vec normal = normal_of_corners(v);
   const double along = dot(normal, s);
@@ -143,13 +143,13 @@ TOFRAY_FN PolygonAlong<N> polygon_seen_along(const Vec (&v)[N], const Vec& s) {
 }
 
 template <int N, class F>
-TOFRAY_FN Mask<F> blocks(const PolygonAlong<N>& polygon, const Place<F>& p, const float*, F margin) {
-  const F least = least_of<N>([&](int i) __attribute__((always_inline)) { return affine(p, polygon.edge[i], polygon.edge_offset[i]); });
+TOFRAY_INLINE Mask<F> blocks(const PolygonAlong<N>& polygon, const Place<F>& p, const float*, F margin) {
+  const F least = least_of<N>([&](int i) TOFRAY_LAMBDA { return affine(p, polygon.edge[i], polygon.edge_offset[i]); });
   return (least >= F(0.0f)) & (affine(p, polygon.m, polygon.c) > margin);
 }
 
 template <int N>
-TOFRAY_FN PolygonFree<N> polygon_free(const Vec (&v)[N]) {
+TOFRAY_INLINE PolygonFree<N> polygon_free(const Vec (&v)[N]) {
   PolygonFree<N> form{};
   for (int i = 0; i < N; ++i) copy(v[i], form.corner[i]);
   return form;
@@ -157,16 +157,16 @@ TOFRAY_FN PolygonFree<N> polygon_free(const Vec (&v)[N]) {
 
 /// What of three coordinates comes first, second and last when `last` says which one is last.
 template <class F>
-TOFRAY_FN Direction<F> cycled(F x, F y, F z, Int<F> last) {
+TOFRAY_INLINE Direction<F> cycled(F x, F y, F z, Int<F> last) {
   const auto of_x = last == Int<F>(0), of_y = last == Int<F>(1);
-  const auto pick = [&](F a, F b, F c) __attribute__((always_inline)) { return num::select(of_x, a, num::select(of_y, b, c)); };
+  const auto pick = [&](F a, F b, F c) TOFRAY_LAMBDA { return num::select(of_x, a, num::select(of_y, b, c)); };
   return {pick(y, z, x), pick(z, x, y), pick(x, y, z)};
 }
 
 /// As triangles of meshes are met: sheared along each ray's longest coordinate, the edges' signs are exact, so that polygons which share
 /// corners have no gap between them (Woop, Benthin and Wald 2013).
 template <int N, class F>
-TOFRAY_FN F distance_to(const PolygonFree<N>& polygon, const FreeRay<F>& ray, F least, Int<F>& facet) {
+TOFRAY_INLINE F distance_to(const PolygonFree<N>& polygon, const FreeRay<F>& ray, F least, Int<F>& facet) {
   facet = Int<F>(0);
   const F direction[3] = {ray.dx, ray.dy, ray.dz};
   const Int<F> longest = longest_of(direction);

@@ -34,16 +34,16 @@ struct Rectangle {
   }
 };
 
-TOFRAY_FN Rectangle in_frame(const Rectangle& r, const Frame& frame) {
+TOFRAY_INLINE Rectangle in_frame(const Rectangle& r, const CoordinateFrame& frame) {
   return {{frame.point(r.corner[0]), frame.point(r.corner[1]), frame.point(r.corner[2]), frame.point(r.corner[3])}};
 }
 
-TOFRAY_FN Span span_along(const Rectangle& r, const Vec& a) { return span_of_points(r.corner, 4, a); }
-TOFRAY_FN double spread(const Rectangle& r, const Vec& s) { return spread_of_corners(r.corner, s); }
-TOFRAY_FN void facet_of(const Rectangle& r, int, Facet& out) { face(normalized(normal_of_corners(r.corner)), out); }
-TOFRAY_FN PolygonForm<4> seen_from(const Rectangle& r, const Vec& origin) { return polygon_seen_from(r.corner, origin); }
-TOFRAY_FN PolygonAlong<4> seen_along(const Rectangle& r, const Vec& s) { return polygon_seen_along(r.corner, s); }
+TOFRAY_INLINE Span span_along(const Rectangle& r, const Vec& a) { return span_of_points(r.corner, 4, a); }
+TOFRAY_INLINE double spread(const Rectangle& r, const Vec& s) { return spread_of_corners(r.corner, s); }
+TOFRAY_INLINE void facet_of(const Rectangle& r, int, Facet& out) { face(normalized(normal_of_corners(r.corner)), out); }
+TOFRAY_INLINE PolygonForm<4> seen_from(const Rectangle& r, const Vec& origin) { return polygon_seen_from(r.corner, origin); }
+TOFRAY_INLINE PolygonAlong<4> seen_along(const Rectangle& r, const Vec& s) { return polygon_seen_along(r.corner, s); }
 
-TOFRAY_FN PolygonFree<4> free_of(const Rectangle& r) { return polygon_free(r.corner); }
+TOFRAY_INLINE PolygonFree<4> free_of(const Rectangle& r) { return polygon_free(r.corner); }
 
 }  // namespace tofray::shape

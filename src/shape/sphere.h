@@ -59,23 +59,23 @@ struct Sphere {
 
   /// n = (P − c)/R.
   template <class F>
-  TOFRAY_FN static Direction<F> normal(const Facet& of, F x, F y, F z) {
+  TOFRAY_INLINE static Direction<F> normal(const Facet& of, F x, F y, F z) {
     const F curvature = F(of.number[3]);
     return {num::fma(x, curvature, F(of.number[0])), num::fma(y, curvature, F(of.number[1])), num::fma(z, curvature, F(of.number[2]))};
   }
 };
 
-TOFRAY_FN Sphere in_frame(const Sphere& s, const Frame& frame) { return {frame.point(s.center), s.radius}; }
-TOFRAY_FN Span span_along(const Sphere& s, const Vec& a) { return span_about(dot(s.center, a), s.radius); }
-TOFRAY_FN bool inside(const Sphere& s, const Vec& p) { return dot(s.center - p, s.center - p) < s.radius * s.radius; }
+TOFRAY_INLINE Sphere in_frame(const Sphere& s, const CoordinateFrame& frame) { return {frame.point(s.center), s.radius}; }
+TOFRAY_INLINE Span span_along(const Sphere& s, const Vec& a) { return span_about(dot(s.center, a), s.radius); }
+TOFRAY_INLINE bool inside(const Sphere& s, const Vec& p) { return dot(s.center - p, s.center - p) < s.radius * s.radius; }
 
-TOFRAY_FN void facet_of(const Sphere& s, int, Facet& out) {
+TOFRAY_INLINE void facet_of(const Sphere& s, int, Facet& out) {
   copy((-1 / s.radius) * s.center, out.number);
   out.number[3] = single(1 / s.radius);
 }
 
 /// Tangent planes through the origin: q = x/z on them solves (c_x − q·c_z)² = R²(1 + q²).
-TOFRAY_FN Bounds bounds_of_sphere(const Vec& c, double radius) {
+TOFRAY_INLINE Bounds bounds_of_sphere(const Vec& c, double radius) {
   if (c.z <= radius * 1.0001) return unbounded();
   double low[2] = {}, high[2] = {};
   for (int k = 0; k < 2; ++k) {
@@ -86,7 +86,7 @@ TOFRAY_FN Bounds bounds_of_sphere(const Vec& c, double radius) {
   return {beyond(low[0], -1), beyond(high[0], 1), beyond(low[1], -1), beyond(high[1], 1)};
 }
 
-TOFRAY_FN SphereForm seen_from(const Sphere& s, const Vec& origin) {
+TOFRAY_INLINE SphereForm seen_from(const Sphere& s, const Vec& origin) {
   const Vec c = s.center - origin;
   const bool within = inside(s, origin);
   SphereForm form{};
@@ -99,22 +99,22 @@ TOFRAY_FN SphereForm seen_from(const Sphere& s, const Vec& origin) {
   return form;
 }
 
-TOFRAY_FN float begins_at(const Sphere& s, const Vec& origin) {
+TOFRAY_INLINE float begins_at(const Sphere& s, const Vec& origin) {
   const Vec c = s.center - origin;
   return single(c.z - s.radius - depth_room * (length(c) + s.radius));
 }
-TOFRAY_FN float begins_along(const Sphere& sphere, const Vec& s) {
+TOFRAY_INLINE float begins_along(const Sphere& sphere, const Vec& s) {
   return single(-dot(sphere.center, s) - sphere.radius - depth_room * (length(sphere.center) + sphere.radius));
 }
 
-TOFRAY_FN bool can_meet(const SphereForm& sphere, const Bounds& r) { return overlap(sphere.bounds, r); }
+TOFRAY_INLINE bool can_meet(const SphereForm& sphere, const Bounds& r) { return overlap(sphere.bounds, r); }
 
 /// The stable form (Hearn and Baker; Haines et al. 2019): with b = d·c and l = c − (b/a)d, a = d·d, the discriminant is
 /// a(R² − |l|²) without cancellation; q = b ± √disc with the sign of b; roots t = C/q and q/a, C = |c|² − R².
 /// @param b       d·c
 /// @param inside  it is the far side that is seen
 template <class F>
-TOFRAY_FN F sphere_inverse_range(F cx, F cy, F cz, F b, F radius_squared, F inverse_power, bool inside, const Ray<F>& ray) {
+TOFRAY_INLINE F sphere_inverse_range(F cx, F cy, F cz, F b, F radius_squared, F inverse_power, bool inside, const Ray<F>& ray) {
   const F k = b * (ray.inverse_length * ray.inverse_length);
   const F lx = num::fnma(k, ray.x, cx), ly = num::fnma(k, ray.y, cy), lz = num::fnma(k, ray.z, cz);
   const F rest = radius_squared - num::fma(lx, lx, num::fma(ly, ly, lz * lz));
@@ -127,12 +127,12 @@ TOFRAY_FN F sphere_inverse_range(F cx, F cy, F cz, F b, F radius_squared, F inve
 }
 
 template <class F>
-TOFRAY_FN F inverse_range(const SphereForm& sphere, const Ray<F>& ray) {
+TOFRAY_INLINE F inverse_range(const SphereForm& sphere, const Ray<F>& ray) {
   return sphere_inverse_range(F(sphere.c[0]), F(sphere.c[1]), F(sphere.c[2]), dot(ray, sphere.c), F(sphere.radius_squared),
                               F(sphere.inverse_power), sphere.inside != 0, ray);
 }
 
-TOFRAY_FN SphereAlong seen_along(const Sphere& sphere, const Vec&) {
+TOFRAY_INLINE SphereAlong seen_along(const Sphere& sphere, const Vec&) {
   SphereAlong form{};
   copy(sphere.center, form.c);
   form.radius_squared = single(sphere.radius * sphere.radius);
@@ -141,7 +141,7 @@ TOFRAY_FN SphereAlong seen_along(const Sphere& sphere, const Vec&) {
 }
 
 template <class F>
-TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Place<F>& p, const float* s, F margin) {
+TOFRAY_INLINE Mask<F> blocks(const SphereAlong& sphere, const Place<F>& p, const float* s, F margin) {
   const F x = F(sphere.c[0]) - p.x, y = F(sphere.c[1]) - p.y, z = F(sphere.c[2]) - p.z;
   const F b = num::fma(x, F(s[0]), num::fma(y, F(s[1]), z * F(s[2])));
   const F lx = num::fnma(b, F(s[0]), x), ly = num::fnma(b, F(s[1]), y), lz = num::fnma(b, F(s[2]), z);
@@ -149,7 +149,7 @@ TOFRAY_FN Mask<F> blocks(const SphereAlong& sphere, const Place<F>& p, const flo
   return (rest > F(0.0f)) & (b + num::sqrt(num::max(rest, F(0.0f))) > margin);
 }
 
-TOFRAY_FN SphereFree free_of(const Sphere& s) {
+TOFRAY_INLINE SphereFree free_of(const Sphere& s) {
   SphereFree form{};
   copy(s.center, form.c);
   form.radius_squared = single(s.radius * s.radius);
@@ -159,7 +159,7 @@ TOFRAY_FN SphereFree free_of(const Sphere& s) {
 /// In the stable form, from the line's point that is nearest to the centre.
 /// @param facet  that its hits name
 template <class F>
-TOFRAY_FN Passage<F> passage(F cx, F cy, F cz, F radius_squared, const FreeRay<F>& ray, Int<F> facet) {
+TOFRAY_INLINE Passage<F> passage(F cx, F cy, F cz, F radius_squared, const FreeRay<F>& ray, Int<F> facet) {
   const F x = cx - ray.x, y = cy - ray.y, z = cz - ray.z;
   const F b = num::fma(x, ray.dx, num::fma(y, ray.dy, z * ray.dz));
   const F lx = num::fnma(b, ray.dx, x), ly = num::fnma(b, ray.dy, y), lz = num::fnma(b, ray.dz, z);
@@ -170,7 +170,7 @@ TOFRAY_FN Passage<F> passage(F cx, F cy, F cz, F radius_squared, const FreeRay<F
 }
 
 template <class F>
-TOFRAY_FN Passage<F> passage(const SphereFree& s, const FreeRay<F>& ray) {
+TOFRAY_INLINE Passage<F> passage(const SphereFree& s, const FreeRay<F>& ray) {
   return passage(F(s.c[0]), F(s.c[1]), F(s.c[2]), F(s.radius_squared), ray, Int<F>(0));
 }
 

@@ -39,17 +39,17 @@ struct Triangle {
   }
 };
 
-TOFRAY_FN Triangle in_frame(const Triangle& t, const Frame& frame) {
+TOFRAY_INLINE Triangle in_frame(const Triangle& t, const CoordinateFrame& frame) {
   return {{frame.point(t.vertex[0]), frame.point(t.vertex[1]), frame.point(t.vertex[2])}};
 }
 
-TOFRAY_FN Span span_along(const Triangle& t, const Vec& a) { return span_of_points(t.vertex, 3, a); }
-TOFRAY_FN double spread(const Triangle& t, const Vec& s) { return spread_of_corners(t.vertex, s); }
-TOFRAY_FN void facet_of(const Triangle& t, int, Facet& out) { face(normalized(normal_of_corners(t.vertex)), out); }
+TOFRAY_INLINE Span span_along(const Triangle& t, const Vec& a) { return span_of_points(t.vertex, 3, a); }
+TOFRAY_INLINE double spread(const Triangle& t, const Vec& s) { return spread_of_corners(t.vertex, s); }
+TOFRAY_INLINE void facet_of(const Triangle& t, int, Facet& out) { face(normalized(normal_of_corners(t.vertex)), out); }
 
-TOFRAY_FN TriangleForm seen_from(const Triangle& t, const Vec& origin) { return polygon_seen_from(t.vertex, origin); }
-TOFRAY_FN TriangleAlong seen_along(const Triangle& t, const Vec& s) { return polygon_seen_along(t.vertex, s); }
+TOFRAY_INLINE TriangleForm seen_from(const Triangle& t, const Vec& origin) { return polygon_seen_from(t.vertex, origin); }
+TOFRAY_INLINE TriangleAlong seen_along(const Triangle& t, const Vec& s) { return polygon_seen_along(t.vertex, s); }
 
-TOFRAY_FN PolygonFree<3> free_of(const Triangle& t) { return polygon_free(t.vertex); }
+TOFRAY_INLINE PolygonFree<3> free_of(const Triangle& t) { return polygon_free(t.vertex); }
 
 }  // namespace tofray::shape

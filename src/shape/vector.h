@@ -8,24 +8,24 @@ namespace tofray::shape {
 
 struct Vec {
   double x, y, z;
-  TOFRAY_FN double& operator[](int k) { return k == 0 ? x : k == 1 ? y : z; }
-  TOFRAY_FN double operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
+  TOFRAY_INLINE double& operator[](int k) { return k == 0 ? x : k == 1 ? y : z; }
+  TOFRAY_INLINE double operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
   bool operator==(const Vec&) const = default;
 };
 
-TOFRAY_FN Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-TOFRAY_FN Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-TOFRAY_FN Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
-TOFRAY_FN double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+TOFRAY_INLINE Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+TOFRAY_INLINE Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+TOFRAY_INLINE Vec operator*(double s, const Vec& a) { return {s * a.x, s * a.y, s * a.z}; }
+TOFRAY_INLINE double dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 /// Exactly antisymmetric: cross(b, a) has the same bits as −cross(a, b). Watertight edges rest on it.
-TOFRAY_FN Vec cross(const Vec& a, const Vec& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-TOFRAY_FN double length(const Vec& a) { return ::sqrt(dot(a, a)); }
-TOFRAY_FN Vec normalized(const Vec& a) { return (1 / length(a)) * a; }
+TOFRAY_INLINE Vec cross(const Vec& a, const Vec& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+TOFRAY_INLINE double length(const Vec& a) { return ::sqrt(dot(a, a)); }
+TOFRAY_INLINE Vec normalized(const Vec& a) { return (1 / length(a)) * a; }
 
 /// What of p is across the unit vector `axis`.
-TOFRAY_FN Vec across(const Vec& p, const Vec& axis) { return p - dot(p, axis) * axis; }
+TOFRAY_INLINE Vec across(const Vec& p, const Vec& axis) { return p - dot(p, axis) * axis; }
 /// Its direction; any one across the axis where p has none.
-TOFRAY_FN Vec way_across(const Vec& p, const Vec& axis) {
+TOFRAY_INLINE Vec way_across(const Vec& p, const Vec& axis) {
   const Vec side = across(p, axis);
   if (length(side) > 1e-12 * length(p)) return normalized(across(side, axis));
   const double x = ::fabs(axis.x), y = ::fabs(axis.y), z = ::fabs(axis.z);
@@ -37,20 +37,20 @@ struct Mat {
   Vec row[3];
   bool operator==(const Mat&) const = default;
 };
-TOFRAY_FN Vec operator*(const Mat& m, const Vec& a) { return {dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)}; }
+TOFRAY_INLINE Vec operator*(const Mat& m, const Vec& a) { return {dot(m.row[0], a), dot(m.row[1], a), dot(m.row[2], a)}; }
 /// The transposed matrix times a.
-TOFRAY_FN Vec back(const Mat& m, const Vec& a) {
+TOFRAY_INLINE Vec back(const Mat& m, const Vec& a) {
   return {m.row[0].x * a.x + m.row[1].x * a.y + m.row[2].x * a.z, m.row[0].y * a.x + m.row[1].y * a.y + m.row[2].y * a.z,
           m.row[0].z * a.x + m.row[1].z * a.y + m.row[2].z * a.z};
 }
 
 /// A frame of axes in the world (rows) about a point. What is at P in the world is at axes·(P − origin) in it.
-struct Frame {
+struct CoordinateFrame {
   Mat axes;
   Vec origin;
-  TOFRAY_FN Vec point(const Vec& p) const { return axes * (p - origin); }
-  TOFRAY_FN Vec direction(const Vec& d) const { return axes * d; }
-  bool operator==(const Frame&) const = default;
+  TOFRAY_INLINE Vec point(const Vec& p) const { return axes * (p - origin); }
+  TOFRAY_INLINE Vec direction(const Vec& d) const { return axes * d; }
+  bool operator==(const CoordinateFrame&) const = default;
 };
 
 /// Where the user puts a thing: turned about its own centre, then shifted. `said` is a vector of the public structs.

@@ -10,11 +10,11 @@ namespace tofray::simulator {
 
 void set_filter(const ImageFilter& filter, pipeline::Job& job) {
   switch (filter.kind) {
-    case ImageFilter::Kind::none: job.filter = pipeline::Filter::none; break;
-    case ImageFilter::Kind::gaussian: job.filter = pipeline::Filter::gaussian; break;
-    case ImageFilter::Kind::median: job.filter = pipeline::Filter::median; break;
-    case ImageFilter::Kind::bilateral: job.filter = pipeline::Filter::bilateral; break;
-    case ImageFilter::Kind::adaptive: job.filter = pipeline::Filter::adaptive; break;
+    case ImageFilter::Kind::none: job.filter = pipeline::FilterKind::none; break;
+    case ImageFilter::Kind::gaussian: job.filter = pipeline::FilterKind::gaussian; break;
+    case ImageFilter::Kind::median: job.filter = pipeline::FilterKind::median; break;
+    case ImageFilter::Kind::bilateral: job.filter = pipeline::FilterKind::bilateral; break;
+    case ImageFilter::Kind::adaptive: job.filter = pipeline::FilterKind::adaptive; break;
   }
   job.filter_radius = filter.radius_px;
   const auto square = [](double value) { return static_cast<float>(value * value); };

@@ -10,7 +10,7 @@
 #include "scene/frozen_scene.h"
 #include "simulator/border.h"
 #include "simulator/engines.h"
-#include "simulator/exposure.h"
+#include "simulator/exposure_control.h"
 #include "simulator/placed.h"
 #include "simulator/temporal.h"
 #include "tofray/simulator.h"
@@ -35,7 +35,7 @@ struct Simulator::Impl {
   std::vector<float> passes_scratch;
   Frame scratch;  ///< of a batch on the processor, and the model of one on a GPU
   simulator::Temporal temporal;
-  simulator::Exposure exposure;
+  simulator::ExposureControl exposure;
   Frame earlier;                                 ///< one that a later one needs
   Frame whole;                                   ///< with the border, before it is cut
   std::unique_ptr<Impl> of_region;               ///< a simulator of the region alone, without a border, for arrays in place of the scene

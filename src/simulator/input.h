@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "camera/readout/image_camera.h"
-#include "pipeline/enter.h"
+#include "pipeline/external_input.h"
 #include "simulator/histogram.h"
 #include "tofray/camera.h"
 #include "tofray/frame.h"

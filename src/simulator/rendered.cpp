@@ -209,7 +209,7 @@ void Sampler::look_along_row(const DepthPicture& depth, int moment, int row) {
   looked_ += looked, outside_ += outside;
 }
 
-/// What one ray meets in the pixel (u, v).                                                                         [theory: eq. 6.13]
+/// What one ray meets in the pixel (u, v).                                                                      [theory: picture-ray]
 void Sampler::look(const DepthPicture& depth, std::size_t first, int u, int v, const Direction& ray, std::size_t into) {
   const double z = depth.z(u, v);
   if (z == 0 || z > static_cast<double>(flow::max_distance)) return;

@@ -29,7 +29,7 @@ std::vector<Vec3> positions(const camera::ImageCamera& camera) {
 void set_ambient(const Scene& scene, const camera::ImageCamera& camera, camera::PowerView& power) {
   if (scene.ambient.spectrum == Ambient::Spectrum::none || scene.ambient.amount == 0) return;
   power.ambient = scene.ambient.direction ? camera::AmbientLight::directional : camera::AmbientLight::uniform;
-  // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.                    [theory: eq. 2.10]
+  // E/π through the lens, as electrons: the kernel multiplies by reflectivity and vignetting.               [theory: ambient-light]
   const double rate = scene::band_electron_rate_factor(scene.ambient, camera.filter, camera.pixel.quantum_efficiency);
   if (!(rate <= 1e30)) {
     throw Error(ErrorKind::bad_input,

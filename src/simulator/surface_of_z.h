@@ -42,7 +42,7 @@ class DepthPicture {
     u = static_cast<int>(column), v = static_cast<int>(row);
     return true;
   }
-  /// Of the plane that z and its neighbours say, turned to the camera. The pixel sees something.                 [theory: eq. 6.14]
+  /// Of the plane that z and its neighbours say, turned to the camera. The pixel sees something.             [theory: normals-of-z]
   [[nodiscard]] Direction normal(int u, int v) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace tofray::simulator {
 
-/// The frames before the one at work, as far as depth needs them, and the mean over them.                   [theory: eq. 4.22]
+/// The frames before the one at work, as far as depth needs them, and the mean over them.              [theory: temporal-mean]
 class Temporal {
  public:
   /// @param last  the last stage that is computed

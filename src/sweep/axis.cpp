@@ -22,8 +22,8 @@ namespace {
 
 using sweeps::trimmed;
 
-using model::Form;
-using FormKind = Form::Kind;
+using model::ValueForm;
+using FormKind = ValueForm::Kind;
 
 constexpr std::size_t most_values = 100'000;
 
@@ -58,7 +58,7 @@ std::vector<std::string> split_values(const std::string& text) {
 /// A key as --set takes it, and what the tables say of it.
 struct Key {
   std::string name;
-  const Form* form = nullptr;
+  const ValueForm* form = nullptr;
   Stage stage = Stage::trace;
 };
 
@@ -85,22 +85,22 @@ Key key_of(const std::string& typed) {
 }
 
 /// Of a number, or of what may be one in place of a curve.
-const Form* number_form(const Form* form) {
+const ValueForm* number_form(const ValueForm* form) {
   if (form == nullptr) return nullptr;
   if (form->kind == FormKind::number || form->kind == FormKind::integer) return form;
   if (form->kind != FormKind::either) return nullptr;
-  for (const Form& one : form->forms)
-    if (const Form* found = number_form(&one)) return found;
+  for (const ValueForm& one : form->forms)
+    if (const ValueForm* found = number_form(&one)) return found;
   return nullptr;
 }
 
-std::string range_of(const Form& form) {
+std::string range_of(const ValueForm& form) {
   return fmt::format("{} to {}, as in {}", base::quantity_text(form.low, form.example), base::quantity_text(form.high, form.example),
                      form.example);
 }
 
 /// SI; none: it is no number.
-std::optional<double> number_of(const Form& form, const std::string& text) {
+std::optional<double> number_of(const ValueForm& form, const std::string& text) {
   const base::Quantity read = base::parse_quantity(text, form.dimension);
   using Status = base::Quantity::Status;
   const bool good = read.status == Status::good || (read.status == Status::bare && form.bare);
@@ -115,7 +115,7 @@ double size_of(const std::string& unit) {
 }
 
 /// A:B:n or A:B:logn; empty: it is none.
-std::vector<std::string> range_values(const std::string& key, const Form* form, const std::string& text) {
+std::vector<std::string> range_values(const std::string& key, const ValueForm* form, const std::string& text) {
   const std::size_t first = text.find(':'), second = first == std::string::npos ? first : text.find(':', first + 1);
   if (second == std::string::npos || text.find(':', second + 1) != std::string::npos) return {};
   const std::string low = trimmed(text.substr(0, first)), high = trimmed(text.substr(first + 1, second - first - 1));
@@ -160,7 +160,7 @@ std::vector<std::string> all_values(const Key& key, const InputRequest& inputs) 
 SweepAxis axis_of(const Key& key, std::vector<std::string> values) {
   SweepAxis out;
   out.key = key.name, out.stage = key.stage, out.values = std::move(values);
-  const Form* const number = number_form(key.form);
+  const ValueForm* const number = number_form(key.form);
   for (const std::string& value : out.values) {
     if (value.empty()) refuse(key.name, value, "a value between two commas");
     if (number == nullptr) continue;
@@ -196,7 +196,7 @@ SweepAxis sweep_axis(const std::string& key, const std::vector<std::string>& val
 }
 
 SweepAxis sweep_axis_of_numbers(const std::string& typed, const std::vector<double>& numbers, const InputRequest& inputs) {
-  const Form* const form = number_form(key_of(typed).form);
+  const ValueForm* const form = number_form(key_of(typed).form);
   if (form == nullptr) refuse(typed, numbers.empty() ? "" : base::number_text(numbers[0]), "texts: the values of this key are no numbers");
   const std::string unit = base::si_unit(form->dimension);
   std::vector<std::string> texts;

@@ -25,7 +25,7 @@ struct RaysApart {
 constexpr float beside_box = 1e-5f;
 
 template <class F>
-TOFRAY_APART void take_apart(const shape::FreeRay<F>& ray, F far, Mask<F> wanted, RaysApart<F>& out) {
+TOFRAY_NOINLINE void take_apart(const shape::FreeRay<F>& ray, F far, Mask<F> wanted, RaysApart<F>& out) {
   const F room = F(beside_box) * (num::abs(ray.x) + num::abs(ray.y) + num::abs(ray.z));
   const F from[3] = {ray.x, ray.y, ray.z}, way[3] = {ray.dx, ray.dy, ray.dz};
   for (int k = 0; k < 3; ++k) {
@@ -38,7 +38,7 @@ TOFRAY_APART void take_apart(const shape::FreeRay<F>& ray, F far, Mask<F> wanted
 
 /// A bit for each of 32 boxes that ray number i meets.
 template <class F>
-TOFRAY_FN std::uint32_t boxes_met(const ManyBoxes& many, const RaysApart<F>& rays, int i) {
+TOFRAY_INLINE std::uint32_t boxes_met(const ManyBoxes& many, const RaysApart<F>& rays, int i) {
   std::uint32_t out = 0;
   for (int first = 0; first < scene::cluster_size; first += num::lanes<F>) {
     F near = F(0.0f), far = F(rays.far[i]);
@@ -55,7 +55,7 @@ TOFRAY_FN std::uint32_t boxes_met(const ManyBoxes& many, const RaysApart<F>& ray
 
 /// Calls run(body) for each body that any of the rays can meet, in no order.
 template <class F, class Run>
-TOFRAY_FN void each_in_reach(const scene::Boxes& boxes, const RaysApart<F>& rays, const Run& run) {
+TOFRAY_INLINE void each_in_reach(const scene::Boxes& boxes, const RaysApart<F>& rays, const Run& run) {
   for (int first = 0; first < boxes.count; first += scene::cluster_size) {
     std::uint32_t of_ray[num::lanes<F>], clusters = 0;
     for (std::uint32_t left = rays.wanted; left != 0; left &= left - 1) {
@@ -93,7 +93,7 @@ struct Asking {
   bool apart = false;
 
   template <class T>
-  TOFRAY_FN scene::Boxes boxes() {
+  TOFRAY_INLINE scene::Boxes boxes() {
     const scene::Boxes out = group.clusters.template of<T>().around(moment);
     if (out.count > 0 && !apart) take_apart<F>(ray, far, wanted, rays), apart = true;
     return out;
@@ -102,22 +102,20 @@ struct Asking {
 
 /// Points whose way to a light, or to the sun, something is in.
 template <class T, class F>
-TOFRAY_APART void block_in_boxes(const scene::FormsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const Ray<F>& ray,
-                                 const Place<F>& p, Mask<F>& dark) {
-  each_in_reach<F>(
-      boxes, rays, [&](int body) __attribute__((always_inline)) { dark = blocked_by_one<T>(forms.at[body], ray, p, dark); });
+TOFRAY_NOINLINE void block_in_boxes(const scene::FormsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const Ray<F>& ray,
+                                    const Place<F>& p, Mask<F>& dark) {
+  each_in_reach<F>(boxes, rays, [&](int body) TOFRAY_LAMBDA { dark = blocked_by_one<T>(forms.at[body], ray, p, dark); });
 }
 template <class T, class F>
-TOFRAY_APART void block_in_boxes(const scene::AlongsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const float* sun,
-                                 const Place<F>& p, Mask<F>& dark) {
+TOFRAY_NOINLINE void block_in_boxes(const scene::AlongsOf<T>& forms, const scene::Boxes& boxes, const RaysApart<F>& rays, const float* sun,
+                                    const Place<F>& p, Mask<F>& dark) {
   const F margin = F(shadow_margin) * p.range;
-  each_in_reach<F>(
-      boxes, rays, [&](int body) __attribute__((always_inline)) { dark = blocked_along_one<T>(forms.at[body], sun, p, margin, dark); });
+  each_in_reach<F>(boxes, rays, [&](int body) TOFRAY_LAMBDA { dark = blocked_along_one<T>(forms.at[body], sun, p, margin, dark); });
 }
 
 /// @param light  the ray from it, or the direction to the sun
 template <class T, class F, class Views, class Light>
-TOFRAY_FN void block_by(const Views& views, Asking<F>& asking, const Light& light, const Place<F>& p, Mask<F>& dark) {
+TOFRAY_INLINE void block_by(const Views& views, Asking<F>& asking, const Light& light, const Place<F>& p, Mask<F>& dark) {
   if constexpr (has_boxes<T, F>) {
     const scene::Boxes boxes = asking.template boxes<T>();
     if (boxes.count > 0) {
@@ -137,7 +135,7 @@ TOFRAY_FN void block_by(const Views& views, Asking<F>& asking, const Light& ligh
   }
 }
 template <class... T, class F, class Views, class Light>
-TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F> asking, const Light& light, const Place<F>& p) {
+TOFRAY_INLINE Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F> asking, const Light& light, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   (block_by<T>(views, asking, light, p, dark), ...);
   return dark;
@@ -146,16 +144,16 @@ TOFRAY_FN Mask<F> block_by_each(shape::List<T...>, const Views& views, Asking<F>
 /// Points anywhere that a group's forms keep from a light. [as blocked]
 /// @param at  the light's position
 template <class F>
-TOFRAY_APART Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at, const Ray<F>& ray,
-                                      const Place<F>& p) {
+TOFRAY_NOINLINE Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at,
+                                         const Ray<F>& ray, const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {F(at[0]), F(at[1]), F(at[2]), ray.x, ray.y, ray.z}, F(1.0f), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, ray, p);
 }
 /// Where something stands between a place anywhere and the sun. [as blocked_parallel]
 template <class F>
-TOFRAY_APART Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
-                                               const Place<F>& p) {
+TOFRAY_NOINLINE Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
+                                                  const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {p.x, p.y, p.z, F(sun[0]), F(sun[1]), F(sun[2])}, F(shape::never), p.found, rays};
   return block_by_each(shape::Shapes{}, forms, asking, sun, p);

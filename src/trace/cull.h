@@ -22,18 +22,18 @@ struct Picked {
   bool everything;      ///< all forms are left; nothing is written down
   std::int32_t* index;  ///< [count]
   ManyBounds* bounds;   ///< [count/32]
-  TOFRAY_FN int at(int i) const { return everything ? i : index[i]; }
+  TOFRAY_INLINE int at(int i) const { return everything ? i : index[i]; }
 };
 
 /// A way through the forms that are left, in their order.
 template <class Form>
-struct Walk {
+struct FormIterator {
   const Picked& picked;
   const Form* forms;
   int i;
-  TOFRAY_FN bool more() const { return i < picked.count; }
-  TOFRAY_FN const Form& form() const { return forms[picked.at(i)]; }
-  TOFRAY_FN void next() { ++i; }
+  TOFRAY_INLINE bool more() const { return i < picked.count; }
+  TOFRAY_INLINE const Form& form() const { return forms[picked.at(i)]; }
+  TOFRAY_INLINE void next() { ++i; }
 };
 
 /// Forms as a point sees them.
@@ -46,7 +46,7 @@ struct PickedForms {
   Picked picked;
   const Form* forms;
   std::int32_t in_squares;  ///< so many are in the lists in place of picked.count: squares of a tile look for them, and its packs do not
-  TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
+  TOFRAY_INLINE static bool meets(const Form& form, const scene::Bounds& r) { return can_meet(form, r); }
 };
 /// Which forms of a shape parallel light can meet.
 template <class T>
@@ -56,26 +56,26 @@ struct PickedAlongs {
   Picked picked;
   const Form* forms;
   std::int32_t in_squares;  ///< not 0: squares of a tile look for what is in the clusters
-  TOFRAY_FN static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
+  TOFRAY_INLINE static bool meets(const Form& form, const scene::Bounds& r) { return shape::can_shade(form, r); }
 };
 
-/// What is left of all shapes. (Another type with these walks can stand in its place.)
+/// What is left of all shapes. (Another type with these iterators can stand in its place.)
 template <template <class> class From>
 struct CulledOf : shape::ByShape<From> {
   unsigned char* room;  ///< for room_of(bodies) bytes, aligned to 64; what is picked is written there
   bool many;            ///< so many that it pays to narrow them
   bool by_squares;      ///< there are some that squares look for
 
-  TOFRAY_FN bool empty() const { return count() == 0 && !by_squares; }
-  TOFRAY_FN int count() const { return count(shape::Shapes{}); }
+  TOFRAY_INLINE bool empty() const { return count() == 0 && !by_squares; }
+  TOFRAY_INLINE int count() const { return count(shape::Shapes{}); }
   template <class T>
-  TOFRAY_FN Walk<typename From<T>::Form> walk() const {
+  TOFRAY_INLINE FormIterator<typename From<T>::Form> iterate() const {
     return {this->template of<T>().picked, this->template of<T>().forms, 0};
   }
 
  private:
   template <class... T>
-  TOFRAY_FN int count(shape::List<T...>) const {
+  TOFRAY_INLINE int count(shape::List<T...>) const {
     return (this->template of<T>().picked.count + ...);
   }
 };
@@ -91,13 +91,13 @@ struct Uncut {
   struct Way {
     const Form* at;
     int left;
-    TOFRAY_FN bool more() const { return left > 0; }
-    TOFRAY_FN const Form& form() const { return *at; }
-    TOFRAY_FN void next() { ++at, --left; }
+    TOFRAY_INLINE bool more() const { return left > 0; }
+    TOFRAY_INLINE const Form& form() const { return *at; }
+    TOFRAY_INLINE void next() { ++at, --left; }
   };
   Views forms;
   template <class T>
-  TOFRAY_FN auto walk() const {
+  TOFRAY_INLINE auto iterate() const {
     const auto& its = forms.template of<T>();
     return Way<std::remove_cvref_t<decltype(*its.at)>>{its.at, its.count};
   }
@@ -106,36 +106,36 @@ template <class Views>
 Uncut(Views) -> Uncut<Views>;
 
 /// Bytes of one shape's list.
-TOFRAY_FN std::size_t list_bytes(int forms) {
+TOFRAY_INLINE std::size_t list_bytes(int forms) {
   return static_cast<std::size_t>((forms + cluster_size - 1) / cluster_size) * (4 * cluster_size + sizeof(ManyBounds));
 }
 template <class... T>
-TOFRAY_FN std::size_t room_of(shape::List<T...>, const scene::Bodies& bodies) {
+TOFRAY_INLINE std::size_t room_of(shape::List<T...>, const scene::Bodies& bodies) {
   return (list_bytes(bodies.of<T>().count) + ...);
 }
 /// Bytes that a Culled writes to.
-TOFRAY_FN std::size_t room_of(const scene::Bodies& bodies) { return room_of(shape::Shapes{}, bodies); }
+TOFRAY_INLINE std::size_t room_of(const scene::Bodies& bodies) { return room_of(shape::Shapes{}, bodies); }
 
 /// Numbers of bodies, marked in any order and read in theirs: a bit for each, and a bit for each word of 64 in which there is one.
 struct Marks {
   std::uint64_t *words, *sums;
 
   static constexpr int per_word = 64, per_sum = per_word * per_word;
-  TOFRAY_FN static int sums_of(int bodies) { return (bodies + per_sum - 1) / per_sum; }
+  TOFRAY_INLINE static int sums_of(int bodies) { return (bodies + per_sum - 1) / per_sum; }
   /// Words that `words` and `sums` have together.
-  TOFRAY_FN static int words_of(int bodies) { return sums_of(bodies) * (per_word + 1); }
+  TOFRAY_INLINE static int words_of(int bodies) { return sums_of(bodies) * (per_word + 1); }
 
-  TOFRAY_FN void clear(int bodies) const {
+  TOFRAY_INLINE void clear(int bodies) const {
     for (int i = 0; i < sums_of(bodies); ++i) sums[i] = 0;
   }
-  TOFRAY_FN void mark(std::int32_t body) const {
+  TOFRAY_INLINE void mark(std::int32_t body) const {
     const std::int32_t word = body / per_word;
     const std::uint64_t bit = std::uint64_t{1} << (body % per_word), its = std::uint64_t{1} << (word % per_word);
     words[word] = (sums[word / per_word] & its) != 0 ? words[word] | bit : bit;
     sums[word / per_word] |= its;
   }
   template <class Each>
-  TOFRAY_FN void each(int bodies, const Each& run) const {
+  TOFRAY_INLINE void each(int bodies, const Each& run) const {
     for (int s = 0; s < sums_of(bodies); ++s) {
       for (std::uint64_t full = sums[s]; full != 0; full &= full - 1) {
         const int word = s * per_word + __builtin_ctzll(full);
@@ -146,22 +146,22 @@ struct Marks {
 };
 
 template <class... T>
-TOFRAY_FN int most_bodies(shape::List<T...>, const scene::Bodies& bodies) {
+TOFRAY_INLINE int most_bodies(shape::List<T...>, const scene::Bodies& bodies) {
   int most = 0;
   ((most = bodies.of<T>().count > most ? bodies.of<T>().count : most), ...);
   return most;
 }
 /// Marks for any one shape of a group.
-TOFRAY_FN std::size_t marks_bytes(const scene::Bodies& bodies) {
+TOFRAY_INLINE std::size_t marks_bytes(const scene::Bodies& bodies) {
   return static_cast<std::size_t>(Marks::words_of(most_bodies(shape::Shapes{}, bodies))) * sizeof(std::uint64_t);
 }
 
 /// A bit for each of 32 that overlap the rectangle and, if `deep`, begin before `far`.
 template <class F, bool deep = false>
-TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r, float far = 0) {
+TOFRAY_INLINE std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r, float far = 0) {
   std::uint32_t out = 0;
   for (int i = 0; i < cluster_size; i += num::lanes<F>) {
-    const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load<F>(from + i, num::lanes<F>); };
+    const auto load = [&](const float* from) TOFRAY_LAMBDA { return num::load<F>(from + i, num::lanes<F>); };
     const F x_min = load(many.x_min), x_max = load(many.x_max), y_min = load(many.y_min), y_max = load(many.y_max);
     auto met = (x_min <= F(r.x_max)) & (x_max >= F(r.x_min)) & (y_min <= F(r.y_max)) & (y_max >= F(r.y_min));
     if (deep) met = met & (load(many.near) <= F(far));
@@ -171,7 +171,7 @@ TOFRAY_FN std::uint32_t overlaps(const ManyBounds& many, const scene::Bounds& r,
 }
 
 template <class Form>
-TOFRAY_FN void write_down(int i, const Form& form, Picked& out) {
+TOFRAY_INLINE void write_down(int i, const Form& form, Picked& out) {
   out.index[out.count] = i;
   if constexpr (requires { form.bounds; }) {
     ManyBounds& many = out.bounds[out.count / cluster_size];
@@ -184,7 +184,7 @@ TOFRAY_FN void write_down(int i, const Form& form, Picked& out) {
 
 /// Calls run(cluster) for those that overlap the rectangle.
 template <class F, class Run>
-TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds& r, const Run& run) {
+TOFRAY_INLINE void each_cluster(const scene::Clusters& clusters, const scene::Bounds& r, const Run& run) {
   const int groups = (clusters.count + cluster_size - 1) / cluster_size;
   for (int above = 0; above < groups; above += cluster_size) {
     for (std::uint32_t those = overlaps<F>(clusters.of_groups()[above / cluster_size], r); those != 0; those &= those - 1) {
@@ -198,16 +198,15 @@ TOFRAY_FN void each_cluster(const scene::Clusters& clusters, const scene::Bounds
 /// Marks what is in the clusters, by its number.
 /// @param numbers  [cluster][32] the bodies, or their ranks
 template <class F>
-TOFRAY_FN void mark_all(const scene::Clusters& clusters, const std::int32_t* numbers, const scene::Bounds& r, const Marks& marks) {
-  each_cluster<F>(
-      clusters, r, [&](int cluster) __attribute__((always_inline)) {
-        const std::int32_t* its = numbers + cluster * cluster_size;
-        for (std::uint32_t left = overlaps<F>(clusters.of_bodies[cluster], r); left != 0; left &= left - 1)
-          marks.mark(its[__builtin_ctz(left)]);
-      });
+TOFRAY_INLINE void mark_all(const scene::Clusters& clusters, const std::int32_t* numbers, const scene::Bounds& r, const Marks& marks) {
+  each_cluster<F>(clusters, r, [&](int cluster) TOFRAY_LAMBDA {
+    const std::int32_t* its = numbers + cluster * cluster_size;
+    for (std::uint32_t left = overlaps<F>(clusters.of_bodies[cluster], r); left != 0; left &= left - 1)
+      marks.mark(its[__builtin_ctz(left)]);
+  });
 }
 
-TOFRAY_FN void put_in_order(Picked& few) {
+TOFRAY_INLINE void put_in_order(Picked& few) {
   for (int i = 1; i < few.count; ++i) {
     const std::int32_t one = few.index[i];
     int at = i;
@@ -219,23 +218,22 @@ TOFRAY_FN void put_in_order(Picked& few) {
 /// Of forms that have clusters those that the rectangle holds: few of them in their order, many with the nearest first, for squares.
 /// (Each form itself is not asked: it lies elsewhere in memory, and its squares ask for its rectangle once more.)
 template <class F, class From, class FormsOf>
-TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
+TOFRAY_INLINE void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
   const scene::Clusters& clusters = forms.clusters;
   const std::int32_t* const order = clusters.order();
   marks.clear(forms.count);
   mark_all<F>(clusters, clusters.ranks(), r, marks);
   Picked out = to.picked;
-  marks.each(
-      forms.count, [&](int rank) __attribute__((always_inline)) {
-        const std::int32_t place = order[rank], from = place % cluster_size, at = out.count % cluster_size;
-        const ManyBounds& its = clusters.of_bodies[place / cluster_size];
-        ManyBounds& many = out.bounds[out.count / cluster_size];
-        const std::int32_t body = clusters.bodies[place];
-        for (std::size_t i = 0; i < sizeof forms.at[0]; i += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + i);
-        out.index[out.count++] = body;
-        many.x_min[at] = its.x_min[from], many.x_max[at] = its.x_max[from];
-        many.y_min[at] = its.y_min[from], many.y_max[at] = its.y_max[from], many.near[at] = its.near[from];
-      });
+  marks.each(forms.count, [&](int rank) TOFRAY_LAMBDA {
+    const std::int32_t place = order[rank], from = place % cluster_size, at = out.count % cluster_size;
+    const ManyBounds& its = clusters.of_bodies[place / cluster_size];
+    ManyBounds& many = out.bounds[out.count / cluster_size];
+    const std::int32_t body = clusters.bodies[place];
+    for (std::size_t i = 0; i < sizeof forms.at[0]; i += 64) __builtin_prefetch(reinterpret_cast<const char*>(forms.at + body) + i);
+    out.index[out.count++] = body;
+    many.x_min[at] = its.x_min[from], many.x_max[at] = its.x_max[from];
+    many.y_min[at] = its.y_min[from], many.y_max[at] = its.y_max[from], many.near[at] = its.near[from];
+  });
   if (out.count > From::few) {
     to.in_squares = out.count, out.count = 0;
   } else {
@@ -248,24 +246,22 @@ TOFRAY_FN void pick_nearest(const FormsOf& forms, const scene::Bounds& r, const 
 /// rectangle that holds them there holds much that is before none of them. Squares look at the clusters themselves; here it is asked
 /// whether there is anything at all.
 template <class F>
-TOFRAY_FN bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
+TOFRAY_INLINE bool any_on_screen(const scene::Clusters& clusters, const scene::Bounds& r) {
   bool any = false;
-  each_cluster<F>(
-      clusters, r, [&](int) __attribute__((always_inline)) { any = true; });
+  each_cluster<F>(clusters, r, [&](int) TOFRAY_LAMBDA { any = true; });
   return any;
 }
 
 /// Of forms that have clusters. Apart: where there are few, nothing is to be paid for it.
 /// @param to  picked: its lists, empty
 template <class F, class From, class FormsOf>
-TOFRAY_APART void pick_of_many(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
+TOFRAY_NOINLINE void pick_of_many(const FormsOf& forms, const scene::Bounds& r, const Marks& marks, From& to) {
   if constexpr (!shape::has_beams<F>) {
     marks.clear(forms.count);
     mark_all<F>(forms.clusters, forms.clusters.bodies, r, marks);
-    marks.each(
-        forms.count, [&](int i) __attribute__((always_inline)) {
-          if (From::meets(forms.at[i], r)) write_down(i, forms.at[i], to.picked);
-        });
+    marks.each(forms.count, [&](int i) TOFRAY_LAMBDA {
+      if (From::meets(forms.at[i], r)) write_down(i, forms.at[i], to.picked);
+    });
   } else if constexpr (From::in_depth) {
     pick_nearest<F>(forms, r, marks, to);
   } else {
@@ -274,7 +270,7 @@ TOFRAY_APART void pick_of_many(const FormsOf& forms, const scene::Bounds& r, con
 }
 
 template <class F, class From, class FormsOf>
-TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, const Marks& marks, From& picked) {
+TOFRAY_INLINE bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*& room, const Marks& marks, From& picked) {
   picked.forms = forms.at, picked.picked = {}, picked.in_squares = 0;
   if (forms.count == 0) return false;
   Picked out{r == nullptr ? forms.count : 0, r == nullptr, reinterpret_cast<std::int32_t*>(room), nullptr};
@@ -295,7 +291,8 @@ TOFRAY_FN bool pick(const FormsOf& forms, const scene::Bounds* r, unsigned char*
 }
 
 template <class F, template <class> class From, class... T, class Forms>
-TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
+TOFRAY_INLINE void cull_each(shape::List<T...>, const Forms& forms, const scene::Bounds* rectangle, const Marks& marks,
+                             CulledOf<From>& out) {
   unsigned char* room = out.room;
   out.many = false;
   ((out.many = pick<F>(forms.template of<T>(), rectangle, room, marks, out.template of<T>()) || out.many), ...);
@@ -305,12 +302,12 @@ TOFRAY_FN void cull_each(shape::List<T...>, const Forms& forms, const scene::Bou
 /// For rays d = (x, y, 1) with (x, y) in `rectangle`, or on the screen of parallel light; a null pointer keeps everything.
 /// @param marks  for the most bodies of any shape
 template <class F, template <class> class From, class Forms>
-TOFRAY_APART void cull(const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
+TOFRAY_NOINLINE void cull(const Forms& forms, const scene::Bounds* rectangle, const Marks& marks, CulledOf<From>& out) {
   cull_each<F>(shape::Shapes{}, forms, rectangle, marks, out);
 }
 
 template <class F, class T, template <class> class From>
-TOFRAY_FN void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, unsigned char*& room, CulledOf<From>& to) {
+TOFRAY_INLINE void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, unsigned char*& room, CulledOf<From>& to) {
   const Picked& all = from.template of<T>().picked;
   Picked out = all;
   if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
@@ -328,7 +325,7 @@ TOFRAY_FN void narrow_one(const CulledOf<From>& from, const scene::Bounds& r, un
 }
 
 template <class F, template <class> class From, class... T>
-TOFRAY_FN void narrow_each(shape::List<T...>, const CulledOf<From>& from, const scene::Bounds& r, CulledOf<From>& to) {
+TOFRAY_INLINE void narrow_each(shape::List<T...>, const CulledOf<From>& from, const scene::Bounds& r, CulledOf<From>& to) {
   unsigned char* room = to.room;
   to.many = false;
   (narrow_one<F, T>(from, r, room, to), ...);
@@ -339,11 +336,11 @@ template <class F>
 struct OnScreenPack {
   F u_low, u_high, v_low, v_high;
   num::Mask<F> use;
-  TOFRAY_FN bool meets(const ManyBounds& many, int i) const {
+  TOFRAY_INLINE bool meets(const ManyBounds& many, int i) const {
     return num::any(use & (u_high >= F(many.x_min[i])) & (u_low <= F(many.x_max[i])) & (v_high >= F(many.y_min[i])) &
                     (v_low <= F(many.y_max[i])));
   }
-  TOFRAY_FN scene::Bounds bounds() const {
+  TOFRAY_INLINE scene::Bounds bounds() const {
     const F far = F(3e38f);
     return {num::lowest(num::select(use, u_low, far)), num::highest(num::select(use, u_high, -far)),
             num::lowest(num::select(use, v_low, far)), num::highest(num::select(use, v_high, -far))};
@@ -351,8 +348,8 @@ struct OnScreenPack {
 };
 
 template <class F, class T>
-TOFRAY_FN void narrow_one(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, const scene::Bounds& r,
-                          unsigned char*& room, CulledAlong& to) {
+TOFRAY_INLINE void narrow_one(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, const scene::Bounds& r,
+                              unsigned char*& room, CulledAlong& to) {
   Picked out = from.of<T>().picked;
   to.of<T>().forms = from.of<T>().forms;
   if constexpr (shape::bounded<T> && !(shape::many_of<T> && shape::has_beams<F>)) {
@@ -360,22 +357,21 @@ TOFRAY_FN void narrow_one(const scene::Alongs& alongs, const CulledAlong& from, 
     if (clusters.count > 0 && out.count > few_forms) {
       out.count = 0, out.index = reinterpret_cast<std::int32_t*>(room);
       room += list_bytes(alongs.of<T>().count);
-      each_cluster<F>(
-          clusters, r, [&](int cluster) __attribute__((always_inline)) {
-            if (!at.meets(clusters.of_clusters[cluster / cluster_size], cluster % cluster_size)) return;
-            const ManyBounds& bodies = clusters.of_bodies[cluster];
-            for (std::uint32_t left = overlaps<F>(bodies, r); left != 0; left &= left - 1) {
-              const int i = __builtin_ctz(left);
-              if (at.meets(bodies, i)) out.index[out.count++] = clusters.bodies[cluster * cluster_size + i];
-            }
-          });
+      each_cluster<F>(clusters, r, [&](int cluster) TOFRAY_LAMBDA {
+        if (!at.meets(clusters.of_clusters[cluster / cluster_size], cluster % cluster_size)) return;
+        const ManyBounds& bodies = clusters.of_bodies[cluster];
+        for (std::uint32_t left = overlaps<F>(bodies, r); left != 0; left &= left - 1) {
+          const int i = __builtin_ctz(left);
+          if (at.meets(bodies, i)) out.index[out.count++] = clusters.bodies[cluster * cluster_size + i];
+        }
+      });
     }
   }
   to.of<T>().picked = out;
 }
 template <class F, class... T>
-TOFRAY_FN void narrow_each(shape::List<T...>, const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at,
-                           CulledAlong& to) {
+TOFRAY_INLINE void narrow_each(shape::List<T...>, const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at,
+                               CulledAlong& to) {
   unsigned char* room = to.room;
   const scene::Bounds r = at.bounds();
   to.many = false;
@@ -386,13 +382,13 @@ TOFRAY_FN void narrow_each(shape::List<T...>, const scene::Alongs& alongs, const
 /// holds much that is behind none of them: each cluster, and each form, is asked whether it is before any point. In no order: a shadow
 /// has none.
 template <class F>
-TOFRAY_FN void narrow(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, CulledAlong& to) {
+TOFRAY_INLINE void narrow(const scene::Alongs& alongs, const CulledAlong& from, const OnScreenPack<F>& at, CulledAlong& to) {
   narrow_each<F>(shape::Shapes{}, alongs, from, at, to);
 }
 
 /// What of it a smaller rectangle holds. Shapes of which there are few, and meshes that tiles look at as a whole, stay as they are.
 template <class F, template <class> class From>
-TOFRAY_FN void narrow(const CulledOf<From>& from, const scene::Bounds& rectangle, CulledOf<From>& to) {
+TOFRAY_INLINE void narrow(const CulledOf<From>& from, const scene::Bounds& rectangle, CulledOf<From>& to) {
   narrow_each<F>(shape::Shapes{}, from, rectangle, to);
 }
 

@@ -15,7 +15,7 @@ struct TileSquares {
   alignas(64) TileRays::Array object;                  ///< bits of a number: to which object belongs what they end at
 };
 template <class F>
-TOFRAY_FN void put(const Ray<F>& ray, int at, TileRays& rays, TileSquares& squares) {
+TOFRAY_INLINE void put(const Ray<F>& ray, int at, TileRays& rays, TileSquares& squares) {
   put(ray.x, ray.y, ray.z, at, rays);
   shape::store_all(squares.square + at, ray.square), shape::store_all(squares.inverse_length + at, ray.inverse_length);
 }
@@ -26,11 +26,11 @@ struct TileHits {
 };
 
 template <class S>
-TOFRAY_FN Int<S> load_numbers(const float* from) {
+TOFRAY_INLINE Int<S> load_numbers(const float* from) {
   return num::to_signed(num::bits(num::load_square<S>(from, TileRays::row)));
 }
 template <class S>
-TOFRAY_FN void store_numbers(float* to, Int<S> numbers) {
+TOFRAY_INLINE void store_numbers(float* to, Int<S> numbers) {
   num::store_square(to, TileRays::row, num::from_bits(num::to_uint(numbers)));
 }
 
@@ -42,7 +42,7 @@ struct SquareRays {
   S u, v;                 ///< x/z, y/z
   scene::Bounds r;        ///< of them
 
-  TOFRAY_FN SquareRays(const TileRays& rays, const TileSquares& squares, int at) {
+  TOFRAY_INLINE SquareRays(const TileRays& rays, const TileSquares& squares, int at) {
     S d[3];
     TileRays::load_square(rays.given, 3, at, d);
     ray = {d[0], d[1], d[2], num::load_square<S>(squares.square + at, TileRays::row),
@@ -53,19 +53,19 @@ struct SquareRays {
     u = d[0] * per_z, v = d[1] * per_z;
     r = shape::unbounded();
     if (num::any(wanted & (!ahead))) return;
-    const auto low = [&](S a) __attribute__((always_inline)) { return num::lowest(num::select(wanted, a, S(3e38f))); };
-    const auto high = [&](S a) __attribute__((always_inline)) { return num::highest(num::select(wanted, a, S(-3e38f))); };
+    const auto low = [&](S a) TOFRAY_LAMBDA { return num::lowest(num::select(wanted, a, S(3e38f))); };
+    const auto high = [&](S a) TOFRAY_LAMBDA { return num::highest(num::select(wanted, a, S(-3e38f))); };
     r = {low(u), high(u), low(v), high(v)};
   }
   /// Which of them can meet what is in a rectangle.
-  TOFRAY_FN Mask<S> within(const scene::Bounds& b) const {
+  TOFRAY_INLINE Mask<S> within(const scene::Bounds& b) const {
     return wanted & (((u >= S(b.x_min)) & (u <= S(b.x_max)) & (v >= S(b.y_min)) & (v <= S(b.y_max))) | (!ahead));
   }
 };
 
 /// Calls run(form, near) for the forms that a square can meet and that begin before `far`, which run may lower.
 template <class S, class Of, class Run>
-TOFRAY_FN void each_in_square(const Of& of, const scene::Bounds& r, const float& far, const Run& run) {
+TOFRAY_INLINE void each_in_square(const Of& of, const scene::Bounds& r, const float& far, const Run& run) {
   const Picked& picked = of.picked;
   const int count = of.in_squares;
   for (int first = 0; first < count; first += cluster_size) {
@@ -81,7 +81,7 @@ TOFRAY_FN void each_in_square(const Of& of, const scene::Bounds& r, const float&
 
 /// The nearer of a square's hits and a form.
 template <class T, class S>
-TOFRAY_FN void take_form(const typename T::Form& form, float near, const SquareRays<S>& q, Hit<S>& hit) {
+TOFRAY_INLINE void take_form(const typename T::Form& form, float near, const SquareRays<S>& q, Hit<S>& hit) {
   S w;
   Int<S> facet, triangle(0);
   Mask<S> met = q.wanted;
@@ -107,33 +107,32 @@ template <class S>
 struct Reach {
   float least, far;  ///< least: w of the deepest hit
 
-  TOFRAY_FN void look(const SquareRays<S>& q, const Hit<S>& hit) {
+  TOFRAY_INLINE void look(const SquareRays<S>& q, const Hit<S>& hit) {
     least = num::lowest(num::select(q.wanted, hit.w, S(3e38f)));
     far = least > 0 ? (1.0f + 0x1p-18f) / least : 3e38f;
   }
   /// It is less deep once all rays that looked deepest have hit something nearer, which is seldom.
-  TOFRAY_FN void look_again(const SquareRays<S>& q, const Hit<S>& hit) {
+  TOFRAY_INLINE void look_again(const SquareRays<S>& q, const Hit<S>& hit) {
     if (!num::any(q.wanted & (hit.w <= S(least)))) look(q, hit);
   }
 };
 
 template <class... T, class S>
-TOFRAY_FN void nearest_in_square(shape::List<T...>, const Culled& culled, const SquareRays<S>& q, Hit<S>& hit) {
+TOFRAY_INLINE void nearest_in_square(shape::List<T...>, const Culled& culled, const SquareRays<S>& q, Hit<S>& hit) {
   Reach<S> reach;
   reach.look(q, hit);
-  const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
+  const auto one = [&]<class One>(shape::List<One>) TOFRAY_LAMBDA {
     const auto& of = culled.template of<One>();
     if (of.in_squares == 0) return;
-    each_in_square<S>(
-        of, q.r, reach.far, [&](const auto& form, float near) __attribute__((always_inline)) {
-          take_form<One>(form, near, q, hit);
-          reach.look_again(q, hit);
-        });
+    each_in_square<S>(of, q.r, reach.far, [&](const auto& form, float near) TOFRAY_LAMBDA {
+      take_form<One>(form, near, q, hit);
+      reach.look_again(q, hit);
+    });
   };
   (one(shape::List<T>{}), ...);
 }
 template <class S>
-TOFRAY_APART void nearest_in_square(const Culled& culled, const TileRays& rays, const TileSquares& squares, int at, TileHits& hits) {
+TOFRAY_NOINLINE void nearest_in_square(const Culled& culled, const TileRays& rays, const TileSquares& squares, int at, TileHits& hits) {
   const SquareRays<S> q(rays, squares, at);
   if (!num::any(q.wanted)) return;
   Hit<S> hit{num::load_square<S>(hits.w + at, TileRays::row), load_numbers<S>(hits.facet + at), load_numbers<S>(hits.triangle + at)};
@@ -143,57 +142,55 @@ TOFRAY_APART void nearest_in_square(const Culled& culled, const TileRays& rays, 
 }
 
 template <class... T>
-TOFRAY_FN bool any_clusters(shape::List<T...>, const scene::SceneView& s) {
+TOFRAY_INLINE bool any_clusters(shape::List<T...>, const scene::SceneView& s) {
   return ((s.still.clusters.of<T>().count + s.moving.clusters.of<T>().count > 0) || ...);
 }
 /// Whether there are so many forms of a shape that they may be looked for in squares.
-TOFRAY_FN bool any_clusters(const scene::SceneView& s) { return any_clusters(shape::Shapes{}, s); }
+TOFRAY_INLINE bool any_clusters(const scene::SceneView& s) { return any_clusters(shape::Shapes{}, s); }
 
 /// The nearer of the packs' hits and the forms that are looked for in squares. [as nearest_meshes]
 template <class F, class Wanted>
-TOFRAY_FN void nearest_by_squares(const Culled& culled, TileRays& rays, const TileSquares& squares, const Wanted& wanted, Hit<F>* hits) {
+TOFRAY_INLINE void nearest_by_squares(const Culled& culled, TileRays& rays, const TileSquares& squares, const Wanted& wanted,
+                                      Hit<F>* hits) {
   TileHits all;
   for (int at = 0, q = 0; at < TileRays::count; at += num::lanes<F>, ++q) {
-    const auto numbers = [&](Int<F> a) __attribute__((always_inline)) { return num::from_bits(num::to_uint(a)); };
+    const auto numbers = [&](Int<F> a) TOFRAY_LAMBDA { return num::from_bits(num::to_uint(a)); };
     put_ends(F(0.0f), F(1.0f), wanted(q), at, rays);
     shape::store_all(all.w + at, hits[q].w);
     shape::store_all(all.facet + at, numbers(hits[q].facet)), shape::store_all(all.triangle + at, numbers(hits[q].triangle));
   }
-  shape::each_square([&](int at) __attribute__((always_inline)) { nearest_in_square<num::Square<F>>(culled, rays, squares, at, all); });
+  shape::each_square([&](int at) TOFRAY_LAMBDA { nearest_in_square<num::Square<F>>(culled, rays, squares, at, all); });
   for (int at = 0, q = 0; at < TileRays::count; at += num::lanes<F>, ++q) {
-    const auto numbers = [&](const float* from) __attribute__((always_inline)) {
-      return num::to_signed(num::bits(shape::load_all<F>(from + at)));
-    };
+    const auto numbers = [&](const float* from) TOFRAY_LAMBDA { return num::to_signed(num::bits(shape::load_all<F>(from + at))); };
     hits[q] = {shape::load_all<F>(all.w + at), numbers(all.facet), numbers(all.triangle)};
   }
 }
 
 /// Which of a square's points forms keep from a light.
 template <class... T, class S>
-TOFRAY_FN void shade_square(shape::List<T...>, const Culled& forms, const SquareRays<S>& q, const Place<S>& p, Mask<S>& dark) {
+TOFRAY_INLINE void shade_square(shape::List<T...>, const Culled& forms, const SquareRays<S>& q, const Place<S>& p, Mask<S>& dark) {
   const bool open = num::any(q.wanted & (!q.ahead));
   float far = open ? 3e38f : num::highest(num::select(q.wanted, q.ray.z, S(-3e38f)));
-  const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
+  const auto one = [&]<class One>(shape::List<One>) TOFRAY_LAMBDA {
     const auto& of = forms.template of<One>();
     if (of.in_squares == 0) return;
-    each_in_square<S>(
-        of, q.r, far, [&](const auto& form, float near) __attribute__((always_inline)) {
-          if constexpr (shape::many_of<One>) {
-            const auto left = q.within(form.bounds) & (!dark) & ((q.ray.z >= S(near)) | (!q.ahead));
-            if (!num::any(left)) return;
-            shape::MeshHit<S> found{S(before_surface), Int<S>(0), Int<S>(-1)};
-            shape::search_from_root<true>(form, shape::in_mesh(form, {q.ray.x, q.ray.y, q.ray.z}), S(0.0f), left, found);
-            dark = dark | (left & (found.triangle > Int<S>(-1)));
-          } else {
-            dark = dark | blocked_by_one<One>(form, q.ray, p, dark);
-          }
-          if (!num::any(q.wanted & (!dark))) far = -3e38f;
-        });
+    each_in_square<S>(of, q.r, far, [&](const auto& form, float near) TOFRAY_LAMBDA {
+      if constexpr (shape::many_of<One>) {
+        const auto left = q.within(form.bounds) & (!dark) & ((q.ray.z >= S(near)) | (!q.ahead));
+        if (!num::any(left)) return;
+        shape::MeshHit<S> found{S(before_surface), Int<S>(0), Int<S>(-1)};
+        shape::search_from_root<true>(form, shape::in_mesh(form, {q.ray.x, q.ray.y, q.ray.z}), S(0.0f), left, found);
+        dark = dark | (left & (found.triangle > Int<S>(-1)));
+      } else {
+        dark = dark | blocked_by_one<One>(form, q.ray, p, dark);
+      }
+      if (!num::any(q.wanted & (!dark))) far = -3e38f;
+    });
   };
   (one(shape::List<T>{}), ...);
 }
 template <class S>
-TOFRAY_APART void shade_square(const Culled& forms, TileRays& rays, const TileSquares& squares, int at, float* dark) {
+TOFRAY_NOINLINE void shade_square(const Culled& forms, TileRays& rays, const TileSquares& squares, int at, float* dark) {
   const SquareRays<S> q(rays, squares, at);
   if (!num::any(q.wanted)) return;
   Place<S> p{};
@@ -207,8 +204,8 @@ TOFRAY_APART void shade_square(const Culled& forms, TileRays& rays, const TileSq
 
 /// Which surfaces the forms that are looked for in squares keep from a light. [as shade_by_meshes]
 template <class F>
-TOFRAY_FN void shade_by_squares(const Culled& forms, TileRays& rays, const TileSquares& squares, float* dark) {
-  shape::each_square([&](int at) __attribute__((always_inline)) { shade_square<num::Square<F>>(forms, rays, squares, at, dark); });
+TOFRAY_INLINE void shade_by_squares(const Culled& forms, TileRays& rays, const TileSquares& squares, float* dark) {
+  shape::each_square([&](int at) TOFRAY_LAMBDA { shade_square<num::Square<F>>(forms, rays, squares, at, dark); });
 }
 
 /// Sixteen points, and where they are on the screen of the sun.
@@ -222,35 +219,35 @@ struct SquareOnScreen {
 
 /// What the sun does not reach of some of a square's points, which are near each other; whatever it keeps from others, too.
 template <class T, class S>
-TOFRAY_FN void shade_points(const scene::AlongsOf<T>& forms, const SquareOnScreen<S>& q, const float* sun, Mask<S> these, Mask<S>& dark) {
+TOFRAY_INLINE void shade_points(const scene::AlongsOf<T>& forms, const SquareOnScreen<S>& q, const float* sun, Mask<S> these,
+                                Mask<S>& dark) {
   OnScreenPack<S> at = q.at;
   at.use = these;
   const scene::Bounds r = at.bounds();
   const float far = num::highest(num::select(these, q.far, S(-3e38f)));
-  each_cluster<S>(
-      forms.clusters, r, [&](int cluster) __attribute__((always_inline)) {
-        const ManyBounds& bodies = forms.clusters.of_bodies[cluster];
-        for (std::uint32_t left = overlaps<S, true>(bodies, r, far); left != 0; left &= left - 1) {
-          const auto& form = forms.at[forms.clusters.bodies[cluster * cluster_size + __builtin_ctz(left)]];
-          if constexpr (shape::many_of<T>) {
-            const Mask<S> open = these & (!dark);
-            if (!num::any(open)) return;
-            Place<S> copy = q.p;
-            copy.found = open;
-            dark = dark | (open & blocks(form, copy, sun, q.margin));
-          } else {
-            dark = blocked_along_one<T>(form, sun, q.p, q.margin, dark);
-          }
-        }
-      });
+  each_cluster<S>(forms.clusters, r, [&](int cluster) TOFRAY_LAMBDA {
+    const ManyBounds& bodies = forms.clusters.of_bodies[cluster];
+    for (std::uint32_t left = overlaps<S, true>(bodies, r, far); left != 0; left &= left - 1) {
+      const auto& form = forms.at[forms.clusters.bodies[cluster * cluster_size + __builtin_ctz(left)]];
+      if constexpr (shape::many_of<T>) {
+        const Mask<S> open = these & (!dark);
+        if (!num::any(open)) return;
+        Place<S> copy = q.p;
+        copy.found = open;
+        dark = dark | (open & blocks(form, copy, sun, q.margin));
+      } else {
+        dark = blocked_along_one<T>(form, sun, q.p, q.margin, dark);
+      }
+    }
+  });
 }
 template <class... T, class S>
-TOFRAY_FN void shade_by_sun(shape::List<T...>, const scene::Alongs& alongs, const CulledAlong& picked, const SquareOnScreen<S>& q,
-                            const float* sun, Mask<S>& dark) {
+TOFRAY_INLINE void shade_by_sun(shape::List<T...>, const scene::Alongs& alongs, const CulledAlong& picked, const SquareOnScreen<S>& q,
+                                const float* sun, Mask<S>& dark) {
   // What belongs to one object is mostly side by side on the screen, what does not is anywhere.
   for (Mask<S> left = q.p.found & (!dark); num::any(left);) {
     const auto these = left & (q.p.object == Int<S>(num::first_of(left, q.p.object)));
-    const auto one = [&]<class One>(shape::List<One>) __attribute__((always_inline)) {
+    const auto one = [&]<class One>(shape::List<One>) TOFRAY_LAMBDA {
       if constexpr (shape::bounded<One>) {
         if (picked.template of<One>().in_squares != 0) shade_points<One, S>(alongs.of<One>(), q, sun, these, dark);
       }
@@ -262,9 +259,9 @@ TOFRAY_FN void shade_by_sun(shape::List<T...>, const scene::Alongs& alongs, cons
 
 /// @param screen  at(x, y, z, lanes): where points are on it
 template <class S, class Points, class Screen>
-TOFRAY_APART void shade_square_by_sun(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
-                                      const Points& points, TileRays& rays, const TileSquares& squares, int at, float* dark) {
-  const auto load = [&](const float* from) __attribute__((always_inline)) { return num::load_square<S>(from + at, TileRays::row); };
+TOFRAY_NOINLINE void shade_square_by_sun(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
+                                         const Points& points, TileRays& rays, const TileSquares& squares, int at, float* dark) {
+  const auto load = [&](const float* from) TOFRAY_LAMBDA { return num::load_square<S>(from + at, TileRays::row); };
   SquareOnScreen<S> q{};
   q.p.found = load(rays.far) > S(0.0f);
   if (!num::any(q.p.found)) return;
@@ -283,16 +280,15 @@ TOFRAY_APART void shade_square_by_sun(const scene::Alongs& alongs, const CulledA
 
 /// Which surfaces the forms that are looked for in squares keep from the sun. [as shade_by_meshes]
 template <class F, class Points, class Screen>
-TOFRAY_FN void shade_by_squares(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
-                                const Points& points, TileRays& rays, const TileSquares& squares, float* dark) {
-  shape::each_square([&](int at) __attribute__((always_inline)) {
-    shade_square_by_sun<num::Square<F>>(alongs, picked, screen, sun, points, rays, squares, at, dark);
-  });
+TOFRAY_INLINE void shade_by_squares(const scene::Alongs& alongs, const CulledAlong& picked, const Screen& screen, const float* sun,
+                                    const Points& points, TileRays& rays, const TileSquares& squares, float* dark) {
+  shape::each_square(
+      [&](int at) TOFRAY_LAMBDA { shade_square_by_sun<num::Square<F>>(alongs, picked, screen, sun, points, rays, squares, at, dark); });
 }
 
 /// The object that a hit belongs to. What it is made of is fetched meanwhile: of many objects it is seldom near.
 template <class F>
-TOFRAY_FN Int<F> object_of(const scene::SceneView& s, const Hit<F>& hit, Mask<F> found) {
+TOFRAY_INLINE Int<F> object_of(const scene::SceneView& s, const Hit<F>& hit, Mask<F> found) {
   const Int<F> facet = num::select(found, hit.facet, Int<F>(0)) * Int<F>(sizeof(shape::Facet) / sizeof(std::int32_t));
   alignas(64) std::int32_t material[num::lanes<F>];
   num::store(material, num::gather(&s.facets->material, facet), num::lanes<F>);

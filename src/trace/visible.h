@@ -12,7 +12,7 @@ namespace tofray::trace {
 constexpr float way_back = static_cast<float>(scene::position_error);
 /// How far before the surface shadow rays end [m]: at most half of the way, so that its beginning stays out.
 template <class F>
-TOFRAY_FN F room_before(const scene::SceneView& s, F away, F step) {
+TOFRAY_INLINE F room_before(const scene::SceneView& s, F away, F step) {
   return num::min(num::fma(F(2 * way_back), away, F(s.roughness)), F(0.5f) * step);
 }
 
@@ -21,7 +21,7 @@ TOFRAY_FN F room_before(const scene::SceneView& s, F away, F step) {
 /// @param away  how far the surface is from the camera [m]
 /// @param step  length of the way [m]
 template <class F>
-TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way, F away, F step) {
+TOFRAY_INLINE Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way, F away, F step) {
   const F back = room_before(s, away, step) * way.inverse_length;
   Place<F> out = p;
   out.x = num::fnma(back, way.x, p.x), out.y = num::fnma(back, way.y, p.y), out.z = num::fnma(back, way.z, p.z);
@@ -30,7 +30,7 @@ TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p,
 }
 /// A point a little before a surface that the camera sees: the way begins at the camera.
 template <class F>
-TOFRAY_FN Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way) {
+TOFRAY_INLINE Place<F> a_little_before(const scene::SceneView& s, const Place<F>& p, const Ray<F>& way) {
   return a_little_before(s, p, way, p.range, p.range);
 }
 
@@ -42,7 +42,7 @@ constexpr float before_surface = 1.0f / (1.0f + shadow_margin);
 /// is in the dark (`own_blocks`).
 /// @param hits  the lanes whose way to the light the form is in
 template <class T, class F, class Form>
-TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
+TOFRAY_INLINE Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
   const auto mine = own == Int<F>(form.object);
   const auto dark = hits & (!mine);
   if constexpr (T::closed) {
@@ -53,7 +53,7 @@ TOFRAY_FN Mask<F> shaded(const Form& form, Mask<F> hits, Int<F> own) {
 
 /// What one form keeps from a light, and what was in the dark before.
 template <class T, class F>
-TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
+TOFRAY_INLINE Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
   if constexpr (shape::many_of<T>) {
     return dark | stands_before(form, ray, F(before_surface), p.found & (!dark));
   } else {
@@ -62,14 +62,14 @@ TOFRAY_FN Mask<F> blocked_by_one(const typename T::Form& form, const Ray<F>& ray
   }
 }
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
+TOFRAY_INLINE Mask<F> blocked_by(const Culled& culled, const Ray<F>& ray, const Place<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F, Culled>) return dark;
-  for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_by_one<T>(i.form(), ray, p, dark);
+  for (auto i = culled.template iterate<T>(); i.more(); i.next()) dark = blocked_by_one<T>(i.form(), ray, p, dark);
   return dark;
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
+TOFRAY_INLINE Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   ((dark = blocked_by<T>(culled, ray, p, dark)), ...);
   return dark;
@@ -77,12 +77,12 @@ TOFRAY_FN Mask<F> blocked_by_each(shape::List<T...>, const Culled& culled, const
 
 /// True where a form stands between the light and the surface.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
+TOFRAY_INLINE Mask<F> blocked(const Culled& culled, const Ray<F>& ray, const Place<F>& p) {
   return blocked_by_each(shape::Shapes{}, culled, ray, p);
 }
 
 template <class T, class F>
-TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* s, const Place<F>& p, F margin, Mask<F> dark) {
+TOFRAY_INLINE Mask<F> blocked_along_one(const typename T::Along& form, const float* s, const Place<F>& p, F margin, Mask<F> dark) {
   const Mask<F> hits = blocks(form, p, s, margin);
   if constexpr (shape::many_of<T>) {
     return dark | hits;
@@ -91,15 +91,15 @@ TOFRAY_FN Mask<F> blocked_along_one(const typename T::Along& form, const float* 
   }
 }
 template <class T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_along(const Culled& culled, const float* s, const Place<F>& p, Mask<F> dark) {
+TOFRAY_INLINE Mask<F> blocked_along(const Culled& culled, const float* s, const Place<F>& p, Mask<F> dark) {
   if constexpr (by_tile<T, F, Culled>) return dark;
   const F margin = F(shadow_margin) * p.range;
-  for (auto i = culled.template walk<T>(); i.more(); i.next()) dark = blocked_along_one<T>(i.form(), s, p, margin, dark);
+  for (auto i = culled.template iterate<T>(); i.more(); i.next()) dark = blocked_along_one<T>(i.form(), s, p, margin, dark);
   return dark;
 }
 
 template <class... T, class F, class Culled>
-TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, const float* s, const Place<F>& p) {
+TOFRAY_INLINE Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, const float* s, const Place<F>& p) {
   Mask<F> dark = F(1.0f) < F(0.0f);
   ((dark = blocked_along<T>(culled, s, p, dark)), ...);
   return dark;
@@ -107,7 +107,7 @@ TOFRAY_FN Mask<F> blocked_along_each(shape::List<T...>, const Culled& culled, co
 
 /// Where something stands between a surface and parallel light that comes from the unit direction s.
 template <class F, class Culled>
-TOFRAY_FN Mask<F> blocked_parallel(const Culled& culled, const float* s, const Place<F>& p) {
+TOFRAY_INLINE Mask<F> blocked_parallel(const Culled& culled, const float* s, const Place<F>& p) {
   return blocked_along_each(shape::Shapes{}, culled, s, p);
 }
 

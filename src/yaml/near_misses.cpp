@@ -16,7 +16,7 @@ using base::in_quotes;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-bool knows(const Form& map, const std::string& name) {
+bool knows(const ValueForm& map, const std::string& name) {
   return std::any_of(map.keys.begin(), map.keys.end(), [&](const Key& key) { return key.name == name; });
 }
 
@@ -44,9 +44,9 @@ bool comma_made_key(const Node& map, std::size_t i, base::Faults& faults) {
   return true;
 }
 
-bool keys_stand_beside(const Form& form, const Node& map, base::Faults& faults) {
+bool keys_stand_beside(const ValueForm& form, const Node& map, base::Faults& faults) {
   const Node::Key* shape = nullptr;
-  const Form* inner = nullptr;
+  const ValueForm* inner = nullptr;
   for (std::size_t i = 0; i < map.keys.size(); ++i) {
     const auto found = std::find(form.names.begin(), form.names.end(), map.keys[i].text);
     if (found == form.names.end()) continue;

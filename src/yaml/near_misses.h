@@ -11,7 +11,7 @@
 /// Mistakes that people make and YAML reads as something else: each says whether it is there, and adds the fault that names it.
 namespace tofray::yaml {
 
-using model::Form;
+using model::ValueForm;
 
 /// "1,5 m" where a number is wanted.
 bool has_decimal_comma(const Node& scalar, const std::string& label, base::Faults& faults);
@@ -20,7 +20,7 @@ bool has_decimal_comma(const Node& scalar, const std::string& label, base::Fault
 bool comma_made_key(const Node& map, std::size_t i, base::Faults& faults);
 
 /// "- plane:" with its keys beside it in place of below: one fault for all of them. @param form  the variant
-bool keys_stand_beside(const Form& form, const Node& map, base::Faults& faults);
+bool keys_stand_beside(const ValueForm& form, const Node& map, base::Faults& faults);
 
 /// Keys of the forms that a data set's file has in place of values.
 const std::vector<std::string>& forms_of_sets();

@@ -32,20 +32,20 @@ using base::listed;
 using model::is_scalar;
 using model::Key;
 using model::provenance_keys;
-using Kind = Form::Kind;
+using Kind = ValueForm::Kind;
 
 bool contains(const std::vector<std::string>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::vector<std::string> key_names(const Form& form) {
+std::vector<std::string> key_names(const ValueForm& form) {
   std::vector<std::string> names;
   for (const auto& key : form.keys) names.push_back(key.name);
   return names;
 }
 
 // "a length such as \"0.5 m\""
-std::string expected(const Form& form) {
+std::string expected(const ValueForm& form) {
   switch (form.kind) {
     case Kind::number: return std::string(base::article_and_name(form.dimension)) + " such as " + in_quotes(form.example);
     case Kind::integer: return "a whole number such as " + form.example;
@@ -76,7 +76,7 @@ std::string longer_name(const std::string& word, const std::vector<std::string>&
 }
 
 // Where in the file a key of that name belongs, as a dotted path.
-std::string home_below(const Form& form, const std::string& name, const std::string& path) {
+std::string home_below(const ValueForm& form, const std::string& name, const std::string& path) {
   for (const auto& key : form.keys) {
     const std::string here = path.empty() ? key.name : path + "." + key.name;
     if (key.name == name) return here;
@@ -96,7 +96,7 @@ class Reader {
  public:
   Reader(const FileForm& file, base::Faults& faults) : file_(file), faults_(faults) {}
 
-  Value read(const Form& form, const Node& written, const std::string& label) {
+  Value read(const ValueForm& form, const Node& written, const std::string& label) {
     const Node& node = unwrapped(form, written);
     Value value;
     value.node = &node;
@@ -120,7 +120,7 @@ class Reader {
   }
 
  private:
-  void wrong(const Form& form, const Node& node, const std::string& label, const std::string& why = {}) {
+  void wrong(const ValueForm& form, const Node& node, const std::string& label, const std::string& why = {}) {
     if (is_form_of_a_set(node, label, faults_)) return;
     const std::string what =
         why.empty() ? (node.kind == Node::Kind::null ? label + " has no value" : label + " is not what belongs here") : why;
@@ -128,7 +128,7 @@ class Reader {
   }
 
   // {value: 12 um, assumed: why}  →  12 um
-  const Node& unwrapped(const Form& form, const Node& node) {
+  const Node& unwrapped(const ValueForm& form, const Node& node) {
     const bool may = file_.provenance && (is_scalar(form) || form.kind == Kind::list || form.kind == Kind::either);
     if (!may || node.kind != Node::Kind::map) return node;
     const Node* inner = node.find("value");
@@ -140,12 +140,12 @@ class Reader {
   }
 
   void read_provenance(const Node& node) {
-    static const Form words = model::text("a text", "data sheet, page 3");
+    static const ValueForm words = model::text("a text", "data sheet, page 3");
     for (std::size_t i = 0; i < node.keys.size(); ++i)
       if (contains(provenance_keys(), node.keys[i].text)) read(words, node.items[i], node.keys[i].text);
   }
 
-  void read_number(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_number(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar) return wrong(form, node, label);
     if (has_decimal_comma(node, label, faults_)) return;
     using enum base::Quantity::Status;
@@ -177,11 +177,11 @@ class Reader {
       faults_.add(node.place, label + " is out of range", got + ", " + range(form));
   }
 
-  static std::string range(const Form& form) {
+  static std::string range(const ValueForm& form) {
     return base::quantity_text(form.low, form.example) + " to " + base::quantity_text(form.high, form.example);
   }
 
-  void read_integer(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_integer(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar) return wrong(form, node, label);
     const char* end = node.text.data() + node.text.size();
     long long whole = 0;
@@ -194,13 +194,13 @@ class Reader {
     value.number = inside ? static_cast<double>(whole) : 0;
   }
 
-  void read_boolean(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_boolean(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     const bool good = node.kind == Node::Kind::scalar && !node.quoted && (node.text == "true" || node.text == "false");
     if (!good) return wrong(form, node, label, label + " is neither true nor false");
     value.flag = node.text == "true";
   }
 
-  void read_text(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_text(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar || node.text.empty()) return wrong(form, node, label, label + " is not a text");
     if (static_cast<long long>(node.text.size()) > base::limit::text_bytes.value) too_long(node.place, label, node.text.size());
     value.text = node.text;
@@ -211,14 +211,14 @@ class Reader {
                 "got " + std::to_string(bytes) + " bytes, at most " + std::to_string(base::limit::text_bytes.value), ErrorKind::limit);
   }
 
-  void read_choice(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_choice(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::scalar) return wrong(form, node, label);
     if (!contains(form.names, node.text))
       return wrong(form, node, label, label + " is unknown: " + in_quotes(node.text) + did_you_mean(node.text, form.names));
     value.text = node.text;
   }
 
-  bool count_fits(const Form& form, const Node& node, const std::string& label, const char* noun) {
+  bool count_fits(const ValueForm& form, const Node& node, const std::string& label, const char* noun) {
     const auto size = static_cast<long long>(node.items.size());
     if (size > form.max_items && form.max_items != form.min_items) {
       faults_.add(node.place, label + " has too many " + noun,
@@ -235,7 +235,7 @@ class Reader {
     return false;
   }
 
-  void read_list(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_list(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::list) return wrong(form, node, label, label + " is not a list");
     if (!count_fits(form, node, label, "elements")) return;
     value.items.reserve(node.items.size());
@@ -243,7 +243,7 @@ class Reader {
       value.items.push_back(read(form.forms[0], node.items[i], label + "[" + std::to_string(i) + "]"));
   }
 
-  void read_dictionary(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_dictionary(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::map) return wrong(form, node, label, label + " is not a map of names");
     if (!count_fits(form, node, label, "entries")) return;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -258,7 +258,7 @@ class Reader {
     if (file_.provenance) read_provenance(node);
   }
 
-  void read_map(const Form& form, const Node& node, const std::string& label, Value& value, const std::string& tag = {}) {
+  void read_map(const ValueForm& form, const Node& node, const std::string& label, Value& value, const std::string& tag = {}) {
     if (node.kind != Node::Kind::map) return wrong(form, node, label, label + " is not a map");
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       const auto& key = node.keys[i];
@@ -279,7 +279,7 @@ class Reader {
     check_groups(form, node, label);
   }
 
-  void check_groups(const Form& form, const Node& node, const std::string& label) {
+  void check_groups(const ValueForm& form, const Node& node, const std::string& label) {
     for (const auto* group : {&form.exactly_one, &form.at_most_one}) {
       std::vector<std::string> found;
       for (const auto& name : *group)
@@ -291,7 +291,7 @@ class Reader {
     }
   }
 
-  void unknown_key(const Form& form, const Node::Key& key, const std::string& label, const std::string& tag) {
+  void unknown_key(const ValueForm& form, const Node::Key& key, const std::string& label, const std::string& tag) {
     auto names = key_names(form);
     if (!tag.empty()) names.push_back(tag);
     const auto meant = std::find_if(form.meant.begin(), form.meant.end(), [&](const auto& pair) { return pair.first == key.text; });
@@ -309,14 +309,14 @@ class Reader {
                     (names.empty() ? "no keys are known here" : "known keys: " + listed(names, "and")));
   }
 
-  void read_tagged(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_tagged(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     // "pattern: lambertian" is short for "pattern: {kind: lambertian}".
     const bool brief = node.kind == Node::Kind::scalar;
     if (!brief && node.kind != Node::Kind::map) return wrong(form, node, label);
     const Node* tag = brief ? &node : node.find(form.tag);
     std::string name = form.default_tag;
     if (tag != nullptr) {
-      const Form tags = model::choice(form.names);
+      const ValueForm tags = model::choice(form.names);
       name = read(tags, *tag, brief ? label : form.tag).text;
     } else if (name.empty()) {
       faults_.add(node.place, label + " lacks the key " + in_quotes(form.tag), "expected " + form.tag + ": " + listed(form.names));
@@ -325,7 +325,7 @@ class Reader {
     value.text = name;
     value.alternative = static_cast<int>(std::find(form.names.begin(), form.names.end(), name) - form.names.begin());
     static const Node empty_map = parse_value("{}", base::whole("default"));
-    const Form& chosen = form.forms[static_cast<std::size_t>(value.alternative)];
+    const ValueForm& chosen = form.forms[static_cast<std::size_t>(value.alternative)];
     if (brief) {
       const bool complete = std::none_of(chosen.keys.begin(), chosen.keys.end(), [](const Key& key) { return key.required; });
       if (!complete) return wrong(form, node, label, label + " " + in_quotes(name) + " needs more than its name");
@@ -334,7 +334,7 @@ class Reader {
     read_map(chosen, node, label, value, form.tag);
   }
 
-  void read_variant(const Form& form, const Node& node, const std::string& label, Value& value) {
+  void read_variant(const ValueForm& form, const Node& node, const std::string& label, Value& value) {
     if (node.kind != Node::Kind::map || node.keys.empty()) return wrong(form, node, label);
     if (keys_stand_beside(form, node, faults_)) return;
     int found = -1;
@@ -364,9 +364,9 @@ class Reader {
     if (found < 0) value.items.clear();
   }
 
-  Value read_either(const Form& form, const Node& node, const std::string& label) {
+  Value read_either(const ValueForm& form, const Node& node, const std::string& label) {
     for (std::size_t i = 0; i < form.forms.size(); ++i) {
-      const Form& one = form.forms[i];
+      const ValueForm& one = form.forms[i];
       const bool map = one.kind == Kind::map || one.kind == Kind::tagged || one.kind == Kind::dictionary || one.kind == Kind::variant;
       const bool fits = (map && node.kind == Node::Kind::map) || (one.kind == Kind::list && node.kind == Node::Kind::list) ||
                         (is_scalar(one) && node.kind == Node::Kind::scalar);
@@ -403,6 +403,6 @@ Value read(const FileForm& file, const Node& root, base::Faults& faults) {
   return reader.read(file.root, root, "the " + file.kind);
 }
 
-std::string home_of(const Form& root, const std::string& name) { return home_below(root, name, ""); }
+std::string home_of(const ValueForm& root, const std::string& name) { return home_below(root, name, ""); }
 
 }  // namespace tofray::yaml

@@ -13,7 +13,7 @@
 namespace tofray::yaml {
 
 using model::FileForm;
-using model::Form;
+using model::ValueForm;
 
 /// A value as its form says: numbers in SI units. It points into the tree, which has to stay.
 struct Value {
@@ -23,7 +23,7 @@ struct Value {
   bool flag = false;                    ///< boolean
   std::string text;                     ///< text, choice; the tag of a tagged map
   int alternative = 0;                  ///< tagged, variant: which one
-  int either = 0;                       ///< which form of Form::Kind::either
+  int either = 0;                       ///< which form of ValueForm::Kind::either
   std::vector<std::string> names;       ///< map, dictionary: keys of `items`; list: empty
   std::vector<base::Place> key_places;  ///< dictionary and the open part of a map
   std::vector<Value> items;             ///< list, dictionary, map; variant: the one value
@@ -38,7 +38,7 @@ struct Value {
 };
 
 /// Where a key of that name stands in such a file, as a dotted path; empty where none does.
-std::string home_of(const Form& root, const std::string& name);
+std::string home_of(const ValueForm& root, const std::string& name);
 
 /// Reads all of the tree, adding every fault to `faults`.
 Value read(const FileForm& file, const Node& root, base::Faults& faults);

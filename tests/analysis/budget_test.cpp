@@ -208,7 +208,8 @@ TEST(share, sums_to_one) {
   }
 }
 
-// h of 3.18, suppression that is at its budget or not, taps that differ, gains: where the law is not 3.9 alone.
+// h of [theory: nonlinearity], suppression that is at its budget or not, taps that differ, gains: where the law is not
+// [theory: phase-noise] alone.
 TEST(sigma, is_that_of_simulated_frames_with_each_effect_of_the_pixel) {
   constexpr int frames = 4000;
   Camera bent = load_camera("pico-flexx");
@@ -243,7 +244,7 @@ Camera plain_camera() {
   return camera;
 }
 
-// 4.33: of fused ranges each frequency's share counts by its weight.
+// [theory: noise-by-cause]: of fused ranges each frequency's share counts by its weight.
 TEST(share, is_that_of_each_frequency_by_its_weight) {
   Camera camera = plain_camera();
   camera.pixel.read_noise_e = 60;
@@ -258,7 +259,7 @@ TEST(share, is_that_of_each_frequency_by_its_weight) {
   EXPECT_NEAR(row.share.signal_shot, shot / weights, 1e-5);
 }
 
-// 3.9: σ_d = c/(4πf)·√(2V/N)/(S·C), fused by 4.7, with what the row itself says of S, B and C.
+// [theory: phase-noise]: σ_d = c/(4πf)·√(2V/N)/(S·C), fused by [theory: fusion], with what the row itself says of S, B and C.
 TEST(sigma, is_the_closed_form_of_its_own_electrons) {
   Camera camera = plain_camera();
   camera.pixel.read_noise_e = 30, camera.adc = {12, 20, 2048, 1, 4094};
@@ -340,7 +341,7 @@ TEST(row, says_when_the_wall_is_too_near_or_too_far) {
   EXPECT_TRUE(dark.no_return && std::isnan(dark.sigma_m));
 }
 
-// u = aim of 4.27 where the law's limits allow it.
+// u = aim of [theory: brightness] where the law's limits allow it.
 TEST(auto_exposure, leaves_what_its_law_aims_at) {
   Camera camera = load_camera("pico-flexx");
   camera.auto_exposure.aim = 0.6, camera.min_integration_time_s = 0, camera.auto_exposure.shortest_s = 1e-7;

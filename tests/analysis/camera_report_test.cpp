@@ -58,7 +58,7 @@ TEST(wrong_cycles, of_four_to_three_are_those_of_the_theory) {
   for (const auto& row : rows) EXPECT_NEAR(wrong_cycle_probability({row.sigma, row.sigma}, {4, 3}), row.share, row.digits) << row.sigma;
 }
 
-// Where the angle in question is small, phases are normal: equation 4.12.
+// Where the angle in question is small, phases are normal: [theory: wrong-cycle].
 TEST(wrong_cycles, of_close_frequencies_are_those_of_normal_phases) {
   for (const double sigma : {0.008, 0.01, 0.015}) {
     const double sigma_q = std::hypot(80 * sigma, 79 * sigma) / (2 * pi);

@@ -63,7 +63,7 @@ TEST(correlation_curves, have_the_harmonics_of_the_camera) {
     third[0] += curve[static_cast<std::size_t>(i)] * std::cos(6 * pi * i / 96),
         third[1] += curve[static_cast<std::size_t>(i)] * std::sin(6 * pi * i / 96);
   }
-  // Of a rectangle of duty d: sin(3 pi d)/9 over sin(pi d) (eq. 3.3).
+  // Of a rectangle of duty d: sin(3 pi d)/9 over sin(pi d) [theory: rectangular-light].
   EXPECT_NEAR(std::hypot(third[0], third[1]) / std::hypot(first[0], first[1]), std::abs(std::sin(1.2 * pi)) / 9 / std::sin(0.4 * pi), 1e-6);
 }
 

@@ -117,8 +117,8 @@ TEST(error_causes, wiggling_of_a_third_harmonic_is_its_closed_form) {
     camera.illumination[0].power_w = 0.01 * z * z;
     const ErrorSplit split = error_causes(wall(z, 0.5), camera, quiet(), 0, {0, 0, 0, 0});
     expect_first(split, "wiggling");
-    // Of four samples the third harmonic falls onto the first as its conjugate: Z = a1 e^{i phi} + a3 e^{-3 i phi}, of equation 3.3 with
-    // a3 = -sinc(1.5)/3 / sinc(0.5) a1 = 1/9 a1.
+    // Of four samples the third harmonic falls onto the first as its conjugate: Z = a1 e^{i phi} + a3 e^{-3 i phi}, of
+    // [theory: rectangular-light] with a3 = -sinc(1.5)/3 / sinc(0.5) a1 = 1/9 a1.
     const double wave = 299'792'458 / (2 * 80e6), phi = 2 * pi * z / wave;
     const double measured = std::atan2(std::sin(phi) - std::sin(3 * phi) / 9, std::cos(phi) + std::cos(3 * phi) / 9);
     EXPECT_NEAR(share_of(split, "wiggling"), std::remainder(measured - phi, 2 * pi) / (2 * pi) * wave, 2e-4) << z;

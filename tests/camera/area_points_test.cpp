@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The points that stand for an area that shines.                                                     [theory: eq. 2.21, 2.22]
+// The points that stand for an area that shines.                                        [theory: rectangle-light, disk-light]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The noise threshold asks for what the adaptive filter left, and filters leave a flag.                        [theory: 4.5, 4.6]
+// The noise threshold asks for what the adaptive filter left, and filters leave a flag.               [theory: adaptive-filter, low-signal]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Range as the mean over the last frames.                                                                     [theory: eq. 4.22]
+// Range as the mean over the last frames.                                                                [theory: temporal-mean]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ Scene passing_wall() {
   return scene;
 }
 
-/// (4.22) of a pixel, in double precision, of frames that stand by themselves: those up to number i.
+/// [theory: temporal-mean] of a pixel, in double precision, of frames that stand by themselves: those up to number i.
 struct TimedMean {
   double range, noise;
 };

@@ -16,7 +16,7 @@ namespace {
 
 struct Pair {
   double f1, f2, base;
-  double sigma;  ///< σ_φ of both, by the closed form 3.9
+  double sigma;  ///< σ_φ of both, by the closed form [theory: phase-noise]
   [[nodiscard]] double m() const { return f1 / base; }
   [[nodiscard]] double n() const { return f2 / base; }
 };

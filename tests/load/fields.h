@@ -14,7 +14,7 @@
 namespace tofray::test {
 
 using model::FileForm;
-using model::Form;
+using model::ValueForm;
 using yaml::Node;
 using yaml::parse_value;
 
@@ -22,13 +22,13 @@ using yaml::parse_value;
 struct Field {
   std::vector<std::size_t> steps;
   std::string name;  ///< the key it belongs to
-  const Form* form;
+  const ValueForm* form;
 };
 
 inline Node scalar(const std::string& text) { return parse_value(text, base::whole("sample")); }
 
 /// A valid value of the form with every key that can stand together; `v` chooses between alternatives, `k` moves numbers apart.
-inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string& key = {}) {
+inline Node sample(const ValueForm& form, std::size_t v, int k = 0, const std::string& key = {}) {
   static const std::map<std::string, std::string> fixed = {
       {"sequence",
        "[{lit: true, modulation_frequency: 80.32 MHz, reference_phase: [0 deg, 90 deg, 180 deg, 270 deg], integration_time: 2000 us}]"},
@@ -43,7 +43,7 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
       {"matrix", "[[0, -1, 0], [1, 0, 0], [0, 0, 1]]"}};
   if (const auto found = fixed.find(key); found != fixed.end()) return scalar(found->second);
   Node node;
-  const auto map_of = [&](const Form& map, Node& into) {
+  const auto map_of = [&](const ValueForm& map, Node& into) {
     into.kind = Node::Kind::map;
     const bool has_keyframes = std::any_of(map.keys.begin(), map.keys.end(), [](const auto& row) { return row.name == "keyframes"; });
     static const std::set<std::string> placed = {"pose", "position", "rotation", "velocity", "angular_velocity"};
@@ -71,23 +71,23 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
     }
   };
   switch (form.kind) {
-    case Form::Kind::number: {
+    case ValueForm::Kind::number: {
       const auto quantity = base::parse_quantity(form.example, form.dimension);
       const std::string number = std::to_string(std::stod(form.example) * (1 + 0.1 * k));
       return scalar(number + (quantity.unit.empty() ? "" : " " + quantity.unit));
     }
-    case Form::Kind::integer:
-    case Form::Kind::boolean:
-    case Form::Kind::text: return scalar(form.example);
-    case Form::Kind::choice: {
+    case ValueForm::Kind::integer:
+    case ValueForm::Kind::boolean:
+    case ValueForm::Kind::text: return scalar(form.example);
+    case ValueForm::Kind::choice: {
       const std::size_t first = form.names.front() == "none" ? 1 : 0;  // an amount of no light is refused
       return scalar(form.names[first + v % (form.names.size() - first)]);
     }
-    case Form::Kind::list: {
+    case ValueForm::Kind::list: {
       node.kind = Node::Kind::list;
       const int count = form.min_items == 4 ? 16 : std::max(1, form.min_items);
       // Three points get coordinates that do not lie on a line.
-      const bool points = form.min_items == 3 && form.forms[0].kind == Form::Kind::list;
+      const bool points = form.min_items == 3 && form.forms[0].kind == ValueForm::Kind::list;
       for (int i = 0; i < count; ++i) {
         node.items.push_back(sample(form.forms[0], v, form.min_items == 4 ? 0 : k + i));
         for (int j = 0; points && j < 3; ++j)
@@ -95,66 +95,66 @@ inline Node sample(const Form& form, std::size_t v, int k = 0, const std::string
       }
       return node;
     }
-    case Form::Kind::map: map_of(form, node); return node;
-    case Form::Kind::dictionary:
+    case ValueForm::Kind::map: map_of(form, node); return node;
+    case ValueForm::Kind::dictionary:
       node.kind = Node::Kind::map;
-      node.keys.push_back({form.forms[0].kind == Form::Kind::tagged ? "paper" : "MODE_9_5FPS_2000", {}});
+      node.keys.push_back({form.forms[0].kind == ValueForm::Kind::tagged ? "paper" : "MODE_9_5FPS_2000", {}});
       node.items.push_back(sample(form.forms[0], v));
       return node;
-    case Form::Kind::tagged:
+    case ValueForm::Kind::tagged:
       map_of(form.forms[v % form.forms.size()], node);
       node.keys.insert(node.keys.begin(), {form.tag, {}});
       node.items.insert(node.items.begin(), scalar(form.names[v % form.names.size()]));
       return node;
-    case Form::Kind::variant:
+    case ValueForm::Kind::variant:
       node.kind = Node::Kind::map;
       node.keys.push_back({form.names[v % form.names.size()], {}});
       node.items.push_back(sample(form.forms[v % form.forms.size()], v / 2));
       return node;
-    case Form::Kind::either: return sample(form.forms[v % form.forms.size()], v / form.forms.size(), k);
-    case Form::Kind::anything: break;
+    case ValueForm::Kind::either: return sample(form.forms[v % form.forms.size()], v / form.forms.size(), k);
+    case ValueForm::Kind::anything: break;
   }
   return node;
 }
 
 /// All fields of a sample document, the root left out.
-inline void collect(const Form& form, const Node& node, Field at, std::vector<Field>& out) {
+inline void collect(const ValueForm& form, const Node& node, Field at, std::vector<Field>& out) {
   at.form = &form;
   if (!at.steps.empty()) out.push_back(at);
-  const auto step = [&](std::size_t i, const Form& below, const std::string& name) {
+  const auto step = [&](std::size_t i, const ValueForm& below, const std::string& name) {
     Field next = at;
     next.steps.push_back(i);
     next.name = name;
     collect(below, node.items[i], next, out);
   };
   switch (form.kind) {
-    case Form::Kind::list:
+    case ValueForm::Kind::list:
       for (std::size_t i = 0; i < node.items.size() && i < 3; ++i) step(i, form.forms[0], at.name);
       break;
-    case Form::Kind::dictionary:
+    case ValueForm::Kind::dictionary:
       for (std::size_t i = 0; i < node.items.size(); ++i) step(i, form.forms[0], node.keys[i].text);
       break;
-    case Form::Kind::map:
+    case ValueForm::Kind::map:
       for (const auto& key : form.keys)
         for (std::size_t i = 0; i < node.keys.size(); ++i)
           if (node.keys[i].text == key.name) step(i, key.form, key.name);
       break;
-    case Form::Kind::tagged: {
+    case ValueForm::Kind::tagged: {
       const Node* tag = node.find(form.tag);
       const auto which = std::find(form.names.begin(), form.names.end(), tag->text) - form.names.begin();
-      const Form& chosen = form.forms[static_cast<std::size_t>(which)];
+      const ValueForm& chosen = form.forms[static_cast<std::size_t>(which)];
       for (const auto& key : chosen.keys)
         for (std::size_t i = 0; i < node.keys.size(); ++i)
           if (node.keys[i].text == key.name) step(i, key.form, key.name);
       break;
     }
-    case Form::Kind::variant:
+    case ValueForm::Kind::variant:
       for (std::size_t i = 0; i < form.names.size(); ++i)
         if (node.keys[0].text == form.names[i]) step(0, form.forms[i], form.names[i]);
       break;
-    case Form::Kind::either:
+    case ValueForm::Kind::either:
       for (const auto& one : form.forms) {
-        const bool list = one.kind == Form::Kind::list, map = one.kind == Form::Kind::map || one.kind == Form::Kind::tagged;
+        const bool list = one.kind == ValueForm::Kind::list, map = one.kind == ValueForm::Kind::map || one.kind == ValueForm::Kind::tagged;
         if (list == (node.kind == Node::Kind::list) && map == (node.kind == Node::Kind::map)) {
           out.pop_back();
           collect(one, node, at, out);
@@ -185,7 +185,7 @@ inline constexpr std::size_t sample_variants = 20;
 /// Calls `check(document, field)` for every field of every sample, each once.
 template <class Check>
 void for_each_field(const FileForm& file, const Check& check) {
-  std::set<std::pair<const Form*, std::vector<std::size_t>>> seen;
+  std::set<std::pair<const ValueForm*, std::vector<std::size_t>>> seen;
   for (std::size_t v = 0; v < sample_variants; ++v) {
     const Node document = sample(file.root, v);
     for (const Field& field : fields(file, document))

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace tofray;
-using model::Form;
+using model::ValueForm;
 using test::Field;
 using yaml::Node;
 
@@ -29,14 +29,14 @@ void load(const std::string& kind, const std::string& text) {
   }
 }
 
-bool takes_any_word(const Form& form) {
-  return form.kind == Form::Kind::text ||
-         std::any_of(form.forms.begin(), form.forms.end(), [](const Form& one) { return one.kind == Form::Kind::text; });
+bool takes_any_word(const ValueForm& form) {
+  return form.kind == ValueForm::Kind::text ||
+         std::any_of(form.forms.begin(), form.forms.end(), [](const ValueForm& one) { return one.kind == ValueForm::Kind::text; });
 }
 
-std::vector<std::string> wrong_values(const Form& form) {
+std::vector<std::string> wrong_values(const ValueForm& form) {
   if (takes_any_word(form)) return {"[zebra]", "{zebra: 1}", "null", "''", "[[a]]", "{value: [1]}"};
-  if (form.kind == Form::Kind::boolean) return {"[zebra]", "{zebra: 1}", "null", "yes", "'true'", "1"};
+  if (form.kind == ValueForm::Kind::boolean) return {"[zebra]", "{zebra: 1}", "null", "yes", "'true'", "1"};
   return {"[zebra]", "{zebra: 1}", "null", "zebra crossing", "true", "3 parsec"};
 }
 
@@ -122,7 +122,7 @@ TEST_P(every_field, numbers_are_refused_or_stay_finite) {
       ".nan", ".inf", "-1", "0", "1e308", "1e-308", "-0", "-1e308", "99999999999999999999", "9223372036854775808", "4294967296", "1e-400"};
   int cases = 0, refused = 0;
   test::for_each_field(form(), [&](const Node& document, const Field& field) {
-    if (field.form->kind != Form::Kind::number && field.form->kind != Form::Kind::integer) return;
+    if (field.form->kind != ValueForm::Kind::number && field.form->kind != ValueForm::Kind::integer) return;
     const std::string unit = base::parse_quantity(field.form->example, field.form->dimension).unit;
     for (const auto& value : values) {
       if (++cases % each != 0) continue;

@@ -180,7 +180,7 @@ TEST(checks_in_code, keep_every_number_within_the_range_of_its_row) {
   for_each_changed(full_camera(), [&](const Camera& camera, const Row& row, const Slot& slot, const std::string& path) {
     auto* const* number = std::get_if<double*>(&slot);
     if (number == nullptr) return;
-    const model::Form& form = row.form.forms.empty() ? row.form : row.form.forms[0];
+    const model::ValueForm& form = row.form.forms.empty() ? row.form : row.form.forms[0];
     for (const double value : {std::nextafter(form.high, 2e30), std::nextafter(form.low, -2e30)}) {
       **number = value;
       EXPECT_THROW(model::check_in_code(camera), Error) << path << " " << value;

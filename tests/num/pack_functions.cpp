@@ -37,32 +37,32 @@ constexpr int lanes = num::lanes<F>;
 struct At {
   const PackBlock& block;
   int i;
-  TOFRAY_FN static F real(const std::uint32_t* from) {
+  TOFRAY_INLINE static F real(const std::uint32_t* from) {
     std::int32_t words[lanes];
     for (int k = 0; k < lanes; ++k) words[k] = static_cast<std::int32_t>(from[k]);
     return num::from_bits(num::to_uint(num::load_int<F>(words, lanes)));
   }
-  TOFRAY_FN static I whole(const std::uint32_t* from) { return num::to_signed(num::bits(real(from))); }
-  TOFRAY_FN F a() const { return real(block.a + i); }
-  TOFRAY_FN F b() const { return real(block.b + i); }
-  TOFRAY_FN F c() const { return real(block.c + i); }
-  TOFRAY_FN I ia() const { return whole(block.a + i); }
-  TOFRAY_FN I ib() const { return whole(block.b + i); }
-  TOFRAY_FN U ua() const { return num::to_uint(ia()); }
-  TOFRAY_FN U ub() const { return num::to_uint(ib()); }
-  TOFRAY_FN U uc() const { return num::bits(c()); }
-  TOFRAY_FN void put(I value, int row = 0) const {
+  TOFRAY_INLINE static I whole(const std::uint32_t* from) { return num::to_signed(num::bits(real(from))); }
+  TOFRAY_INLINE F a() const { return real(block.a + i); }
+  TOFRAY_INLINE F b() const { return real(block.b + i); }
+  TOFRAY_INLINE F c() const { return real(block.c + i); }
+  TOFRAY_INLINE I ia() const { return whole(block.a + i); }
+  TOFRAY_INLINE I ib() const { return whole(block.b + i); }
+  TOFRAY_INLINE U ua() const { return num::to_uint(ia()); }
+  TOFRAY_INLINE U ub() const { return num::to_uint(ib()); }
+  TOFRAY_INLINE U uc() const { return num::bits(c()); }
+  TOFRAY_INLINE void put(I value, int row = 0) const {
     std::int32_t words[lanes];
     num::store(words, value, lanes);
     for (int k = 0; k < lanes; ++k) block.out[row * pack_block + i + k] = static_cast<std::uint32_t>(words[k]);
   }
-  TOFRAY_FN void put(U value, int row = 0) const { put(num::to_signed(value), row); }
-  TOFRAY_FN void put(F value, int row = 0) const { put(num::bits(value), row); }
-  TOFRAY_FN void put(M value, int row = 0) const { put(num::select(value, I(1), I(0)), row); }
+  TOFRAY_INLINE void put(U value, int row = 0) const { put(num::to_signed(value), row); }
+  TOFRAY_INLINE void put(F value, int row = 0) const { put(num::bits(value), row); }
+  TOFRAY_INLINE void put(M value, int row = 0) const { put(num::select(value, I(1), I(0)), row); }
 };
 
 template <class Function>
-TOFRAY_FN bool each(const PackBlock& block, Function function) {
+TOFRAY_INLINE bool each(const PackBlock& block, Function function) {
   for (int i = 0; i < pack_block; i += lanes) function(At{block, i});
   return true;
 }
@@ -71,7 +71,7 @@ TOFRAY_FN bool each(const PackBlock& block, Function function) {
   return each(    \
       block, [](const At& at) __attribute__((always_inline)) { __VA_ARGS__; })
 
-TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
+TOFRAY_INLINE bool arithmetic(int which, const PackBlock& block) {
   switch (which) {
     case 0: EACH(at.put(at.a() + at.b()));
     case 1: EACH(at.put(at.a() - at.b()));
@@ -98,7 +98,7 @@ TOFRAY_FN bool arithmetic(int which, const PackBlock& block) {
   }
 }
 
-TOFRAY_FN bool whole_numbers(int which, const PackBlock& block) {
+TOFRAY_INLINE bool whole_numbers(int which, const PackBlock& block) {
   switch (which) {
     case 0: EACH(at.put(at.ua() + at.ub()); at.put(at.ua() & at.ub(), 1); at.put(at.ua() | at.ub(), 2); at.put(at.ua() ^ at.ub(), 3));
     case 1: EACH(at.put(at.ua() << 1); at.put(at.ua() << 31, 1); at.put(at.ua() >> 9, 2); at.put(at.ua() >> 31, 3));
@@ -125,7 +125,7 @@ TOFRAY_FN bool whole_numbers(int which, const PackBlock& block) {
   }
 }
 
-TOFRAY_FN bool elementary(int which, const PackBlock& block) {
+TOFRAY_INLINE bool elementary(int which, const PackBlock& block) {
   switch (which) {
     case 0:
       EACH(const F t = num::select(num::abs(at.a()) < F(0x1p21f), at.a(), F(0.3f)); F s; F c; num::sincos_turns(t, s, c); at.put(s);
@@ -149,7 +149,7 @@ TOFRAY_FN bool elementary(int which, const PackBlock& block) {
 
 /// Calls `part` for each number n of lanes, with where to say which bits are wrong.
 template <class Part>
-TOFRAY_FN bool each_part(const PackBlock& block, const Part& part) {
+TOFRAY_INLINE bool each_part(const PackBlock& block, const Part& part) {
   return each(
       block, [&](const At& at) __attribute__((always_inline)) {
         for (int n = 1; n <= lanes; ++n) part(at, n, block.out + at.i);
@@ -157,11 +157,11 @@ TOFRAY_FN bool each_part(const PackBlock& block, const Part& part) {
 }
 
 /// Which bits are wrong of what was 7 before and is `from` where it is written.
-TOFRAY_FN std::uint32_t wrong(std::uint32_t got, bool written, std::uint32_t from) { return got ^ (written ? from : 7u); }
+TOFRAY_INLINE std::uint32_t wrong(std::uint32_t got, bool written, std::uint32_t from) { return got ^ (written ? from : 7u); }
 
 /// Whole packs past the caches, between others that stay: no bit is wrong. (A template, since only there `if constexpr` leaves out what a type lacks.)
 template <class P>
-TOFRAY_FN void past_caches(const At& at) {
+TOFRAY_INLINE void past_caches(const At& at) {
   alignas(64) float to[3 * num::lanes<P>];
   alignas(64) std::uint16_t halves[3 * num::lanes<P>];
   for (float& one : to) one = num::from_bits(7u);
@@ -182,7 +182,7 @@ TOFRAY_FN void past_caches(const At& at) {
 }
 
 /// Parts of a pack: what lies beyond reads as 0 and is not written. No bit is wrong.
-TOFRAY_FN bool parts(int which, const PackBlock& block) {
+TOFRAY_INLINE bool parts(int which, const PackBlock& block) {
   switch (which) {
     case 0:
       return each_part(
@@ -237,7 +237,7 @@ TOFRAY_FN bool parts(int which, const PackBlock& block) {
 }
 
 /// What moves between lanes and memory.
-TOFRAY_FN bool memory(int which, const PackBlock& block) {
+TOFRAY_INLINE bool memory(int which, const PackBlock& block) {
   if (which > 0) return parts(which - 1, block);
   return each(
       block, [&](const At& at) __attribute__((always_inline)) { at.put(num::lane_index<F>() + I(at.i)); });
@@ -245,7 +245,7 @@ TOFRAY_FN bool memory(int which, const PackBlock& block) {
 
 /// Rows of four, read and written back, against a plain loop: they agree, and nothing else is written. (A template: a plain float has none.)
 template <class P>
-TOFRAY_FN bool square_is_good(const float* from) {
+TOFRAY_INLINE bool square_is_good(const float* from) {
   if constexpr (num::lanes<P> >= 4) {
     constexpr int row = 7, room = num::lanes<P> / 4 * row;
     const P square = num::load_square<P>(from, row);
@@ -261,7 +261,7 @@ TOFRAY_FN bool square_is_good(const float* from) {
     return true;
   }
 }
-TOFRAY_FN bool squares(const PackBlock& block) {
+TOFRAY_INLINE bool squares(const PackBlock& block) {
   return each(
       block, [&](const At& at) __attribute__((always_inline)) {
         const bool good = square_is_good<F>(block.table + at.i);
@@ -270,7 +270,7 @@ TOFRAY_FN bool squares(const PackBlock& block) {
 }
 
 /// What speaks of all lanes: the smallest, the largest, any and all, the first, against a plain loop over the same pack. 1: agrees.
-TOFRAY_FN bool over_lanes(int which, const PackBlock& block) {
+TOFRAY_INLINE bool over_lanes(int which, const PackBlock& block) {
   if (which == 1) return squares(block);
   if (which != 0) return false;
   return each(

@@ -131,7 +131,7 @@ TEST(light_source, tables_give_off_their_power) {
   EXPECT_NEAR(total(camera::freeze_light(source(table(40, 30, samples), 2, axis), 1), axis, 1500, 3000), 2, 2 * 2e-3);
 }
 
-// 2.1, with an integral of our own over a finer grid.
+// [theory: radiant-intensity], with an integral of our own over a finer grid.
 TEST(light_source, flat_top_has_its_integral_and_axis) {
   double sum = 0;
   const int n = 2000;

@@ -66,8 +66,8 @@ class EveryCamera : public testing::TestWithParam<std::string> {
 };
 
 // From 0.2 m to 0.98 of where the range begins anew; the nearer the darker, so that nothing clips. What is left is the table of the
-// wiggling's inverse, some micrometres; three lights in a row, read as if they were one, 0.02 mm (4.15); and single precision, 2e-7 of
-// up to 60 m.
+// wiggling's inverse, some micrometres; three lights in a row, read as if they were one, 0.02 mm [theory: several-lights]; and single
+// precision, 2e-7 of up to 60 m.
 TEST_P(EveryCamera, unwraps_its_whole_range_in_each_mode) {
   const int walls = often(50);
   for (const Camera& camera : in_each_mode()) {
@@ -99,7 +99,7 @@ double median(std::vector<double> all) {
 // dark, and all numbers of the others are finite. Their errors are as large as they say: half of the absolute values of normal errors lie
 // below 0.674 of their standard deviation, where the density is 0.636, so that the median of n has a standard error of 1/(2·0.636·√n).
 // Four of them are exceeded by one of 16,000 modes; the seed is fixed. 0.03 is for what a pixel's estimate of its noise is off by in the
-// dark (4.4).
+// dark (theory 4.4).
 TEST_P(EveryCamera, sees_a_white_wall_in_each_mode) {
   for (const Camera& camera : in_each_mode()) {
     const Frame frame = Simulator(wall(1, 0.8), coarse(camera), {.seed = 3, .threads = 1}).frame(0);

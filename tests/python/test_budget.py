@@ -45,7 +45,8 @@ def test_each_word_reaches_the_budget() -> None:
 
 @pytest.mark.parametrize("name, lux, reflectivity", [("pico-flexx", 1e5, 0.3), ("kinect-v2", 2e4, 0.9), ("opt8241", 50, 0.02)])
 def test_ambient_light_has_its_closed_form(name: str, lux: float, reflectivity: float) -> None:
-    """Of an even spectrum E_λ = lux/(683 lm/W · ∫V dλ), ∫V dλ = 106.86 nm; through a filter with straight sides, lens and pixel (2.10, 2.5, 2.6)."""
+    """Of an even spectrum E_λ = lux/(683 lm/W · ∫V dλ), ∫V dλ = 106.86 nm; through a filter with straight sides, lens and pixel
+    [theory: ambient-light, image-irradiance, pixel-power]."""
     camera = tofray.load_camera(name)
     camera.filter = tofray.Filter(center_m=camera.filter.center_m, half_width_m=12e-9, peak=0.75)
     camera.pixel.quantum_efficiency = tofray.Curve(x=[400e-9, 1100e-9], y=[0.5, 0.5])

@@ -99,7 +99,7 @@ TEST(quantiser, has_the_bias_and_variance_of_the_closed_form) {
       const double x = static_cast<double>(j) / offsets;
       Moments code(2048 + x);
       for (const double z : normal) {
-        const effect::Means<float> charge{static_cast<float>(20 * (x + s * z) + 1000), 1000.0f};
+        const effect::TapPair<float> charge{static_cast<float>(20 * (x + s * z) + 1000), 1000.0f};
         code.add(static_cast<double>(effect::read_out(sensor, charge, 0.0f).code));
       }
       worst = std::max(worst, std::abs(code.mean() - 2048 - x));
@@ -138,8 +138,8 @@ TEST(quantiser, is_monotone_misses_no_code_and_holds_its_ends) {
   std::set<int> seen;
   double before = -1;
   for (int difference = -60000; difference <= 60000; ++difference) {
-    const effect::Means<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0),
-                                      static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
+    const effect::TapPair<float> charge{static_cast<float>(difference + 30000 > 0 ? difference + 30000 : 0),
+                                        static_cast<float>(difference + 30000 > 0 ? 30000 : -difference)};
     const auto out = effect::read_out(sensor, charge, 0.0f);
     const double code = static_cast<double>(out.code), exact = difference / 20.0 + 2048;
     ASSERT_EQ(code, std::floor(code));
@@ -217,7 +217,7 @@ TEST(saturation, is_flagged_where_the_adc_held_a_code_that_would_be_valid) {
     sensor.noise = noise;
     for (const double level : {-7.0, -0.6, -0.4, 0.0, 4095.0, 4095.4, 4095.6, 4100.0}) {
       const float difference = static_cast<float>(20 * (level - 2048));
-      const effect::Means<float> charge{50000 + difference / 2, 50000 - difference / 2};
+      const effect::TapPair<float> charge{50000 + difference / 2, 50000 - difference / 2};
       EXPECT_EQ(test::flags(sensor, lit(), charge), level < -0.5 || level > 4095.5) << level;
       EXPECT_FALSE(test::flags(sensor, lit(false), charge)) << level;
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Charge beyond a full well, which spills into the neighbours, as far as flags know of it.                       [theory: eq. 3.32]
+// Charge beyond a full well, which spills into the neighbours, as far as flags know of it.                       [theory: blooming]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -14,8 +14,8 @@ using namespace tofray::test;
 namespace {
 
 /// By a pixel that has drawn nothing before.
-effect::Means<float> suppressed(const camera::SensorView& s, const effect::Means<float>& charge, int pixel, int k,
-                                effect::FrameIndex frame) {
+effect::TapPair<float> suppressed(const camera::SensorView& s, const effect::TapPair<float>& charge, int pixel, int k,
+                                  effect::FrameIndex frame) {
   effect::TapWords<float> words{};
   return effect::Suppression::suppress<float>(s, charge, pixel, k, frame, words);
 }

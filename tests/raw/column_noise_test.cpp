@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Column noise: A−B of all pixels of a column is shifted alike in one raw frame.                                        [theory: eq. 3.15]
+// Column noise: A−B of all pixels of a column is shifted alike in one raw frame.                                    [theory: column-noise]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -105,7 +105,8 @@ TEST(column_noise, is_the_same_with_every_instruction_set) {
   }
 }
 
-// V of 3.9 grows by σ_c², and σ_d² with it: with 2σ_c the growth is four times that with σ_c. Single precision leaves 1e-5 of it.
+// V of [theory: phase-noise] grows by σ_c², and σ_d² with it: with 2σ_c the growth is four times that with σ_c. Single precision leaves
+// 1e-5 of it.
 TEST(column_noise, is_in_the_noise_that_depth_says_of_itself) {
   const auto noise_square = [](double column_noise_e) {
     Camera camera = lit_camera(1, 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Charge that a pixel's neighbours collect.                                                                 [theory: eq. 3.27, 3.28]
+// Charge that a pixel's neighbours collect.                                                       [theory: crosstalk, crosstalk-mtf]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ PixelLight uneven_light() {
 
 std::size_t place(int x, int y) { return static_cast<std::size_t>(y * shared_width + x); }
 
-/// (3.27) of a pixel, of an image of which nothing is known beyond its edges.
+/// [theory: crosstalk] of a pixel, of an image of which nothing is known beyond its edges.
 double shared_at(const float* image, int x, int y, double left_right, double up_down) {
   double sum = 0;
   for (int j = -1; j <= 1; ++j) {
@@ -55,7 +55,7 @@ double shared_at(const float* image, int x, int y, double left_right, double up_
   return sum;
 }
 
-/// Both taps of all raw frames against (3.27) of those of another frame, `rim` pixels off the edges.
+/// Both taps of all raw frames against [theory: crosstalk] of those of another frame, `rim` pixels off the edges.
 void expect_shared(const Frame& seen, const Frame& whole, double left_right, double up_down, int rim) {
   for (std::size_t k = 0; k < 4; ++k) {
     for (int y = rim; y < shared_height - rim; ++y) {
@@ -102,7 +102,7 @@ TEST(crosstalk, of_an_edge_is_of_what_the_lens_has_left_there) {
               1e-6);
 }
 
-// Stripes of p pixels: the sine's mean stays, its swing is that of (3.28). Rows of the middle, columns off the edges.
+// Stripes of p pixels: the sine's mean stays, its swing is that of [theory: crosstalk-mtf]. Rows of the middle, columns off the edges.
 TEST(crosstalk, leaves_of_stripes_what_the_closed_form_says) {
   for (const int period : {2, 3, 8}) {
     for (const double share : {0.01, 0.1, 0.25}) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Dark current against temperature: i·2^((T − T_ref)/d).                                                                [theory: eq. 3.19]
+// Dark current against temperature: i·2^((T − T_ref)/d).                                                            [theory: dark-current]
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The amplifier before the ADC: a mode's gain, s = step/gain.                                                     [theory: eq. 3.33]
+// The amplifier before the ADC: a mode's gain, s = step/gain.                                                   [theory: gain-steps]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ double gained_difference(std::size_t k) {
 
 }  // namespace
 
-// Codes are (A−B)·gain/step off the middle, to the nearest; beyond the last code a larger gain clips sooner (3.8).
+// Codes are (A−B)·gain/step off the middle, to the nearest; beyond the last code a larger gain clips sooner [theory: adc].
 TEST(gain, multiplies_codes_and_leaves_electrons) {
   for (const double gain : {1.0, 4.0, 8.0}) {
     const auto taps = Bench(amplified(gain)).expose({gained_signal, gained_half_path, 0});
@@ -47,7 +47,7 @@ TEST(gain, multiplies_codes_and_leaves_electrons) {
   EXPECT_FALSE(clipped);
 }
 
-// s²/12 of V̂ (3.9) shrinks with the square of the gain: 5 e⁻ of 20 e⁻ beside a signal of 30.
+// s²/12 of V̂ [theory: phase-noise] shrinks with the square of the gain: 5 e⁻ of 20 e⁻ beside a signal of 30.
 TEST(gain, makes_rounding_finer) {
   const auto said = [](double gain) { return static_cast<double>(Bench(amplified(gain)).measure({30, 1.1, 0}).depth.noise); };
   EXPECT_NEAR(said(4) / said(1), std::sqrt((30 + 25 / 12.0) / (30 + 400 / 12.0)), 1e-4);

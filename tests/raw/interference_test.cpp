@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Light of another camera of the same kind at the same place.                                               [theory: eq. 3.24 to 3.26]
+// Light of another camera of the same kind at the same place.  [theory: interference, interference-known-phase, interference-free-clocks]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,7 +102,7 @@ TEST(interference, has_the_phasors_of_each_modulation_frequency) {
   }
 }
 
-// arg(1 + s·e^{iθ}) [3.25]: at a quarter of a turn atan(s), at most asin(s).
+// arg(1 + s·e^{iθ}) [theory: interference-known-phase]: at a quarter of a turn atan(s), at most asin(s).
 TEST(interference, of_a_known_phase_pulls_the_range_by_the_closed_form) {
   for (const double share : {0.02, 0.3}) {
     for (const double phase : {0.0, 0.7, pi / 2, pi / 2 + std::asin(share), pi, -pi / 2}) {
@@ -145,8 +145,8 @@ std::vector<double> added_swing(const Interference& other, std::uint64_t frames,
 
 }  // namespace
 
-// Var = b·½·(s·sinc)² (3.26), and shot noise. n squares of the sine of a random phase, b of which are not 0, scatter by √((3/(2b) − 1)/n) of
-// their mean: 5 of them, a false alarm in 1.7 million; so do 5/√n of correlations.
+// Var = b·½·(s·sinc)² [theory: interference-free-clocks], and shot noise. n squares of the sine of a random phase, b of which are not 0,
+// scatter by √((3/(2b) − 1)/n) of their mean: 5 of them, a false alarm in 1.7 million; so do 5/√n of correlations.
 TEST(interference, of_free_clocks_has_the_variance_of_the_closed_form_and_is_drawn_anew) {
   const double full = 2 / pi * own_electrons();
   struct Case {
@@ -170,7 +170,8 @@ TEST(interference, of_free_clocks_has_the_variance_of_the_closed_form_and_is_dra
   }
 }
 
-// σ_φ = s/√N (3.26), here 25 mrad, and that of shot noise and rounding. First order leaves s² of it; 20000 phases 0.5 %, 5 of them.
+// σ_φ = s/√N [theory: interference-free-clocks], here 25 mrad, and that of shot noise and rounding. First order leaves s² of it; 20000
+// phases 0.5 %, 5 of them.
 TEST(interference, of_free_clocks_is_the_phase_noise_of_the_closed_form) {
   const double share = 0.05, own = own_electrons();
   Simulator simulator(wall(1), beside({share, 0, 1, {}}), {.seed = 3, .noise = Noise::exact, .threads = 1});

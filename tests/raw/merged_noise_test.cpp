@@ -47,7 +47,7 @@ void expect_law(double mean, double read, const Draw& draw) {
   Moments a(mean), b(mean);
   Correlation taps(mean, mean);
   for (int i = 0; i < tries; ++i) {
-    const effect::Means<float> got = draw(i);
+    const effect::TapPair<float> got = draw(i);
     const double tap_a = static_cast<double>(got.a), tap_b = static_cast<double>(got.b);
     ++seen_a[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), tap_a) - edges.begin())];
     ++seen_b[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), tap_b) - edges.begin())];
@@ -70,7 +70,7 @@ void expect_law(double mean, double read, const Draw& draw) {
 TEST_P(MergedNoise, has_the_law_of_shot_and_read_noise_together) {
   const auto [read, mean] = GetParam();
   const camera::SensorView sensor = sensor_with(read);
-  const effect::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
+  const effect::TapPair<float> means{static_cast<float>(mean), static_cast<float>(mean)};
   effect::TapWords<float> words{};
   expect_law(mean, read, [&](int i) { return raw::expose_merged<float>(sensor, means, i / 9, i % 9, {0, 0}, words); });
 }
@@ -138,7 +138,7 @@ TEST(merged_noise, begins_where_theory_says) {
     for (const double mean : {5.0, 30.0}) {
       expect_law(mean, read, [&](int i) {
         const flow::Taps<float> taps = bench.expose({0, 0, 2 * mean}, i)[1];
-        return effect::Means<float>{taps.a, taps.b};
+        return effect::TapPair<float>{taps.a, taps.b};
       });
     }
   }

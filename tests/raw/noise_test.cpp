@@ -61,8 +61,8 @@ Stream shot(double mean, const Key& key, camera::Noise noise = camera::Noise::ap
             if (noise == camera::Noise::merged) s.read_noise = 50, s.read_variance = 2500;
             s.keys = num::round_keys(static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32));
             const effect::FrameIndex frame{static_cast<std::uint32_t>(key.frame), static_cast<std::uint32_t>(key.frame >> 32)};
-            const effect::Means<float> means{static_cast<float>(mean), static_cast<float>(mean)};
-            effect::Means<float> got;
+            const effect::TapPair<float> means{static_cast<float>(mean), static_cast<float>(mean)};
+            effect::TapPair<float> got;
             if (noise == camera::Noise::merged) {
               effect::TapWords<float> words{};
               for (int k = 0; k <= key.k; ++k) got = raw::expose_merged<float>(s, means, pixel + key.shift, k, frame, words);
@@ -226,7 +226,7 @@ TEST(draws, of_suppression_are_independent_between_taps_and_raw_frames) {
   constexpr std::size_t draws = 2 * raw_frames;
   camera::SensorView s{};
   s.suppression_threshold = 1000, s.suppression_budget = 1e6f, s.suppression_noise = 1, s.noise = camera::Noise::merged;
-  const effect::Means<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
+  const effect::TapPair<float> charge{10000.0f, 10000.0f}, little{500.0f, 500.0f};
   std::vector<Correlation> values(draws * draws, Correlation(1000, 1000)), sizes(draws * draws, Correlation(9000, 9000));
   for (int i = 0; i < samples; ++i) {
     effect::TapWords<float> words{};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// What is read of a tap's charge: a curve behind the full well.                                                         [theory: eq. 3.18]
+// What is read of a tap's charge: a curve behind the full well.                                                     [theory: nonlinearity]
 #include <gtest/gtest.h>
 
 #include <cmath>

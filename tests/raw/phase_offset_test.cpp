@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Fixed phases of pixels, others at each modulation frequency.                                                          [theory: eq. 3.17]
+// Fixed phases of pixels, others at each modulation frequency.                                                      [theory: phase-offset]
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -100,7 +100,7 @@ TEST(poisson, of_a_small_tap_beside_a_large_one_is_its_own) {
     for (const double chance : cells.chance) expected.push_back(chance * draws);
     Correlation taps(mean_a, mean_b), read_a(8, 0), read_b(8, 0), reads(0, 0), spread(8, 0), read_spread(8, 200);
     for (int i = 0; i < draws; ++i) {
-      const effect::Means<float> means{static_cast<float>(mean_a), static_cast<float>(mean_b)};
+      const effect::TapPair<float> means{static_cast<float>(mean_a), static_cast<float>(mean_b)};
       const auto got = raw::expose_apart<float>(silent, means, i, 1, {3, 0}),
                  with_read = raw::expose_apart<float>(noisy, means, i, 1, {3, 0});
       const double small = static_cast<double>(small_first ? got.a : got.b);

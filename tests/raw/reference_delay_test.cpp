@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Sequences by delays in place of phases: τ = 2πf·t.                                                              [theory: eq. 3.34]
+// Sequences by delays in place of phases: τ = 2πf·t.                                                       [theory: reference-delay]
 #include <gtest/gtest.h>
 
 #include <cmath>

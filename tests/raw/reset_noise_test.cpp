@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Noise that the reset of a tap leaves in it, and what correlated double sampling makes of it.                    [theory: eq. 3.29]
+// Noise that the reset of a tap leaves in it, and what correlated double sampling makes of it.                 [theory: reset-noise]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,8 @@ double dark_variance(const Camera& camera) {
 
 }  // namespace
 
-// σ² = σ_r² + σ_0²·T/T_0, or 2σ_r² where reset noise is cancelled (3.29). 80000 squares of a normal draw scatter by √(2/80000): 5 of them.
+// σ² = σ_r² + σ_0²·T/T_0, or 2σ_r² where reset noise is cancelled [theory: reset-noise]. 80000 squares of a normal draw scatter by
+// √(2/80000): 5 of them.
 // From 4 electrons on noise is one draw, below a draw of its own.
 TEST(reset_noise, adds_its_variance_to_that_of_reading) {
   struct Case {
@@ -50,7 +51,7 @@ TEST(reset_noise, adds_its_variance_to_that_of_reading) {
   }
 }
 
-// V̂ knows it (4.9): σ̂² of the same light goes with S + 2σ² + s²/12.
+// V̂ knows it [theory: noise-estimate]: σ̂² of the same light goes with S + 2σ² + s²/12.
 TEST(reset_noise, is_in_the_noise_that_depth_says_of_itself) {
   const auto said = [](const Camera& camera) { return static_cast<double>(Bench(camera).measure({20000, 1.3, 0}).depth.noise); };
   const double plain = said(with_reset(20, 0, false)), of_light = 20000 + 1 / 12.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Row noise: A−B of all pixels of a row is shifted alike in one raw frame.                                              [theory: eq. 3.15]
+// Row noise: A−B of all pixels of a row is shifted alike in one raw frame.                                          [theory: column-noise]
 #include <gtest/gtest.h>
 
 #include <cmath>

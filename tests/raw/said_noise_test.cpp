@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// The noise that depth says of itself, σ̂, against the spread over frames, with each effect of the pixel.                [theory: eq. 4.9]
+// The noise that depth says of itself, σ̂, against the spread over frames, with each effect of the pixel.         [theory: noise-estimate]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 struct Effect {
   const char* name;
   std::function<void(Camera&)> turn_on;
-  double variance;       ///< V by 3.9 and the effect's own closed form, without s²/12 of 1 e⁻
+  double variance;       ///< V by [theory: phase-noise] and the effect's own closed form, without s²/12 of 1 e⁻
   double ambient_e = 0;  ///< B
   double slope = 1;      ///< of what is read, by which Â is less and 1 e⁻ of a code more
 };

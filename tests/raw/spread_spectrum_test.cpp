@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Modulation frequencies that are swept over a band within each exposure.                                  [theory: eq. 3.30, 3.31]
+// Modulation frequencies that are swept over a band within each exposure.           [theory: spread-spectrum, spread-spectrum-down]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ TEST(spread_spectrum, is_the_mean_over_the_band) {
 }
 
 // One harmonic: the amplitude is |sinc(Δf·ℓ/c)| of what it was, the range of a band about the modulation frequency what it was, and of one
-// below it (1 − width/2) of that (3.30, 3.31).
+// below it (1 − width/2) of that [theory: spread-spectrum, spread-spectrum-down].
 TEST(spread_spectrum, takes_amplitude_with_the_distance_and_range_only_of_a_band_below) {
   for (const double width : {0.01, 0.05}) {
     for (const double half_path : {0.2, 1.1, 2.4}) {

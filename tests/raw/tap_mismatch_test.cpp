@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Taps that differ: A·(1 + g/2) + o/2 and B·(1 − g/2) − o/2.                                                            [theory: eq. 3.16]
+// Taps that differ: A·(1 + g/2) + o/2 and B·(1 − g/2) − o/2.                                                        [theory: tap-mismatch]
 #include <gtest/gtest.h>
 
 #include <cmath>

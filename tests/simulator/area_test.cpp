@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Lights that are disks and rectangles.                                                              [theory: eq. 2.21, 2.22]
+// Lights that are disks and rectangles.                                                 [theory: rectangle-light, disk-light]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -295,7 +295,7 @@ TEST(area_light, has_the_mean_phasor_of_its_paths) {
   EXPECT_GT(std::arg(expected), 0.028);
 }
 
-// Depth counts the mean of |L|² (equation 4.15): near the axis a large light does not shift it.
+// Depth counts the mean of |L|² [theory: several-lights]: near the axis a large light does not shift it.
 TEST(area_light, does_not_shift_depth) {
   for (const double z : {0.5, 1.0, 2.0}) {
     const Frame frame = expected_frame(wall(z), matt_light(1, 200, shining_disk(0.05)));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Of several modulation frequencies, confidence says how likely the cycle is that was chosen.                 [theory: eq. 4.10, 4.31]
+// Of several modulation frequencies, confidence says how likely the cycle is that was chosen.   [theory: confidence, cycle-likelihood]
 #include <gtest/gtest.h>
 
 #include <array>

@@ -123,7 +123,7 @@ TEST(smooth_normals, are_those_of_the_ball_that_the_corners_lie_on) {
 }
 
 // The light stands at the camera, so that what a surface sends back depends on one angle, that to the smooth normal: Oren and Nayar's
-// A + B·sin θ·tan θ over Lambert's.                                                                     [theory: eq. 2.14]
+// A + B·sin θ·tan θ over Lambert's.                                                                   [theory: oren-nayar]
 TEST(smooth_normals, are_those_that_materials_see) {
   const Vec3 normal = base::normalized(Vec3{0.5, -0.3, -1});
   Scene scene = card(nullptr);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Integration times that follow the light.                                                            [theory: eq. 4.27, 4.28]
+// Integration times that follow the light.                                                 [theory: brightness, auto-exposure]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Simulator quiet(const Scene& scene, const Camera& camera) { return Simulator(sce
 
 double lit_time(const Frame& frame) { return frame.raw.integration_time_s[1]; }
 
-/// How much of the valid codes the bright pixels use: by (4.27), out of the codes.
+/// How much of the valid codes the bright pixels use: by [theory: brightness], out of the codes.
 double used_by(const Frame& frame, const Camera& camera) {
   const std::size_t pixels = 24 * 18;
   const double reach = std::min(camera.adc.mid_code - camera.adc.valid_min, camera.adc.valid_max - camera.adc.mid_code);
@@ -60,8 +60,8 @@ std::string complaint(const Camera& camera, const SimulatorOptions& options = {}
 
 }  // namespace
 
-// What pixels use grows as the time does, so that by (4.28) the logarithm of the time nears its end by the factor 1 − speed from frame to
-// frame: t_i = t_∞·(t_0/t_∞)^((1 − s)^i). Rounding to codes of 1 e⁻, of some 10⁴, moves it by less than 10⁻³.
+// What pixels use grows as the time does, so that by [theory: auto-exposure] the logarithm of the time nears its end by the factor 1 −
+// speed from frame to frame: t_i = t_∞·(t_0/t_∞)^((1 − s)^i). Rounding to codes of 1 e⁻, of some 10⁴, moves it by less than 10⁻³.
 TEST(auto_exposure, nears_its_aim_by_the_speed) {
   for (const double speed : {0.3, 0.5, 1.0}) {
     const Camera camera = following(speed);

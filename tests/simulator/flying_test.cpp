@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(modes, FlatWall, testing::Values(2000, 1000, 700, 450),
 
 // The modes as they are. In the corners the assumed light is 1.6 % of the middle's: at 1,000 µs they are means over neighbours, which the
 // threshold of the noise that is left lets pass. Of those some are wrong cycles whose neighbours have the same: where one pixel's range has 70
-// mm of noise, each of two phases has 0.33 rad, and one cycle in 20 is wrong (4.12, 1.8 % at 0.25 rad).
+// mm of noise, each of two phases has 0.33 rad, and one cycle in 20 is wrong ([theory: wrong-cycle], 1.8 % at 0.25 rad).
 TEST(walls, have_19_of_20_pixels_in_the_modes_as_they_are) {
   for (const char* mode : {"MODE_9_5FPS_2000", "MODE_9_10FPS_1000"}) {
     const Camera camera = load_camera("pico-flexx", {.mode = mode});

@@ -62,8 +62,8 @@ TEST(glossy_wall, throws_light_back_about_the_mirror_direction) {
   EXPECT_GT(bright, 300);
 }
 
-// B = ρE_B/π through lens and pixel (2.10), the same however the surface leans and whatever stands beside it; 850 ± 0.1 nm, so that
-// QE·λ is that of 850 nm to 1e-4.
+// B = ρE_B/π through lens and pixel [theory: ambient-light], the same however the surface leans and whatever stands beside it; 850 ± 0.1
+// nm, so that QE·λ is that of 850 nm to 1e-4.
 TEST(light_from_everywhere, is_the_same_on_every_surface) {
   Camera camera = wide_camera();
   camera.illumination.clear();

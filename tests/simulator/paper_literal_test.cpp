@@ -49,7 +49,7 @@ std::vector<double> flat_top() {
 
 }  // namespace
 
-// 2.8: the azimuth loses its quadrant and no origin is added, so that nearly all indices fall outside the table.
+// Theory 2.8: the azimuth loses its quadrant and no origin is added, so that nearly all indices fall outside the table.
 TEST(paper_literal, lights_80_of_38528_pixels_of_a_wall) {
   const Truth t = truth(wall(1, 0.8), flexx(PowerModel::paper_literal));
   ASSERT_EQ(t.power_w.size(), 38528u);

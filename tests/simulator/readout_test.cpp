@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Regions of the sensor, and pixels that are read together.                                          [theory: eq. 4.24 to 4.26]
+// Regions of the sensor, and pixels that are read together.              [theory: image-pixels, binned-charge, binned-patterns]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -181,7 +181,8 @@ TEST(readout, a_region_of_even_light_is_even) {
   }
 }
 
-// What lies beside a region is computed for the lens that scatters, and brighter: the next time follows from the region's codes alone (4.28).
+// What lies beside a region is computed for the lens that scatters, and brighter: the next time follows from the region's codes alone
+// [theory: auto-exposure].
 TEST(readout, an_exposure_meters_its_region_alone) {
   Camera camera = whole_sensor();
   camera.lens.scatter = {Scatter::Kind::gaussians, 0.2, {3}, {}};

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// 3, 4, 5, 6 and 8 reference phases through the whole simulator: what harmonics do to the range of a square light.  [theory: eq. 3.5, 4.3]
+// 3, 4, 5, 6 and 8 reference phases through the whole simulator: what harmonics do to the range of a square light.
+//                                                                                                  [theory: wiggling, wiggling-correction]
 #include <gtest/gtest.h>
 
 #include <algorithm>

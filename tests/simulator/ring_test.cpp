@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// Lights that are rings of LEDs.                                                                           [theory: eq. 2.15]
+// Lights that are rings of LEDs.                                                                           [theory: led-ring]
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-// What decoding knows of the specimen whose raw frames it gets: all, nothing, or what a calibration says.              [theory: eq. 4.35]
+// What decoding knows of the specimen whose raw frames it gets: all, nothing, or what a calibration says.  [theory: specimen-calibration]
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -113,7 +113,7 @@ class Bench {
 };
 
 /// Whether one raw frame of this charge flags its pixel.
-inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const effect::Means<float>& charge) {
+inline bool flags(const camera::SensorView& sensor, const camera::RawFrameView& frame, const effect::TapPair<float>& charge) {
   effect::Exposure<float> exposure{};
   raw::watch(sensor, frame, num::max(charge.a, charge.b), effect::read_out(sensor, charge, 0.0f), exposure);
   return raw::saturated(sensor, exposure);

@@ -67,7 +67,7 @@ inline FlatLoss flat_loss(const Camera& camera, double z, double reflectivity, i
   return out;
 }
 
-/// The limit on |Δz| by itself, in double.                                                              [theory: eq. 4.11]
+/// The limit on |Δz| by itself, in double.                                                    [theory: flying-pixel-limit]
 inline double step_limit(double z) { return 0.018 + (0.14 - 0.018) * std::clamp((z - 1) / 3.5, 0.0, 1.0); }
 
 struct EdgesFound {

@@ -41,7 +41,7 @@ class NoiseLaw {
   std::vector<double> chance_;
 };
 
-/// Equation 3.11 in double.
+/// [theory: merged-noise] in double.
 inline double expansion(double mean, double read, double z) {
   const double variance = mean + read * read, share = mean / variance;
   return mean + std::sqrt(variance) * z +

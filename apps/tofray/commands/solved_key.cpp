@@ -19,14 +19,14 @@ namespace tofray::app {
 
 namespace {
 
-using model::Form;
-using Kind = Form::Kind;
+using model::ValueForm;
+using Kind = ValueForm::Kind;
 
 /// The form of a number at a dotted path, or none.
-const Form* number_at(const Form& form, const std::string& path) {
+const ValueForm* number_at(const ValueForm& form, const std::string& path) {
   if (path.empty()) {
     if (form.kind == Kind::number) return &form;
-    for (const Form& one : form.forms)
+    for (const ValueForm& one : form.forms)
       if (form.kind == Kind::either && one.kind == Kind::number) return &one;
     return nullptr;
   }
@@ -45,8 +45,8 @@ const Form* number_at(const Form& form, const std::string& path) {
       return nullptr;
     case Kind::tagged:
     case Kind::either:
-      for (const Form& one : form.forms)
-        if (const Form* found = number_at(one, path)) return found;
+      for (const ValueForm& one : form.forms)
+        if (const ValueForm* found = number_at(one, path)) return found;
       return nullptr;
     default: return nullptr;
   }
@@ -79,7 +79,7 @@ bool is_number_key(const std::string& key) { return number_at(model::camera_form
 
 SolvedKey solved_key(const std::string& typed) {
   const std::string key = typed.starts_with("camera.") ? typed.substr(7) : typed;
-  const Form* const form = number_at(model::camera_form().root, key);
+  const ValueForm* const form = number_at(model::camera_form().root, key);
   if (form == nullptr) {
     std::vector<std::string> names;
     bool known = false;

@@ -191,8 +191,8 @@ class Scaled {
   }
 
  private:
-  static bool is_length(const model::Form& form) {
-    return form.kind == model::Form::Kind::list ? is_length(form.forms[0]) : form.dimension == base::Dimension::length;
+  static bool is_length(const model::ValueForm& form) {
+    return form.kind == model::ValueForm::Kind::list ? is_length(form.forms[0]) : form.dimension == base::Dimension::length;
   }
   [[nodiscard]] double scaled(double value) const { return to_nine_digits(value * factor_); }
   [[nodiscard]] Vec3 about(const Vec3& point) const { return to_micrometre(middle_ + factor_ * (point - middle_)); }

@@ -36,13 +36,13 @@ namespace {
 using namespace pipeline;
 
 /// What went past the caches is there for all before the piece counts as done.
-TOFRAY_FN void finish(const Work& work) {
+TOFRAY_INLINE void finish(const Work& work) {
   if (work.job->tap_stores == TapStores::past_caches) num::finish_stores<F>();
 }
 
 /// Apart, so that the compiler has one of them at a time to find registers for.
 template <bool can_move>
-TOFRAY_APART void run_tile(const Work& work, int index, void* scratch) {
+TOFRAY_NOINLINE void run_tile(const Work& work, int index, void* scratch) {
   one_tile<F, can_move>(*work.setup, *work.job, index, scratch);
   finish(work);
 }
@@ -56,7 +56,7 @@ void run_tile(const Work& work, int index, void* scratch) {
 
 /// The pixels of a tile, pack by pack.
 template <class P>
-TOFRAY_FN void each_pack_of_tile(const PassWork& work, int index) {
+TOFRAY_INLINE void each_pack_of_tile(const PassWork& work, int index) {
   const Tile tile = tile_at(work.s.lens, index);
   for (int q = 0; q < max_packs<F>; ++q) {
     const Pixels p = pack_at<F>(work.s.lens, tile, q);
@@ -66,7 +66,7 @@ TOFRAY_FN void each_pack_of_tile(const PassWork& work, int index) {
 
 /// Row y of the image, by the pass's own function or pack by pack.
 template <class P>
-TOFRAY_FN void row_of(const PassWork& work, int y) {
+TOFRAY_INLINE void row_of(const PassWork& work, int y) {
   const int width = work.s.lens.width, lanes = num::lanes<F>;
   if constexpr (requires { P::template row<F>(work, y); }) {
     P::template row<F>(work, y);
@@ -94,8 +94,8 @@ void run_piece(const Work& work, int index, void* scratch) {
 
 /// Bytes that a worker needs for the work's scene.
 std::size_t scratch_bytes(const scene::SceneView& scene) {
-  return scene.moments > 0 ? sizeof(Scratch<F, true>) + Near<true>::room_of(scene)
-                           : sizeof(Scratch<F, false>) + Near<false>::room_of(scene);
+  return scene.moments > 0 ? sizeof(Scratch<F, true>) + TileCandidates<true>::room_of(scene)
+                           : sizeof(Scratch<F, false>) + TileCandidates<false>::room_of(scene);
 }
 
 }  // namespace

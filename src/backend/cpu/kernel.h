@@ -3,7 +3,7 @@
 #pragma once
 #include <cstddef>
 
-#include "pipeline/enter.h"
+#include "pipeline/external_input.h"
 #include "pipeline/pass/list.h"
 
 /// What one instruction set's object exports: the pipeline over a piece of a frame.

@@ -20,11 +20,11 @@ struct DeviceWarp {
 #if defined(__CUDA_ARCH__)
   /// Which of these forms can be met: a word of what each lane says of one.
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(const void*, Test test) const {
+  TOFRAY_INLINE std::uint32_t vote(const void*, Test test) const {
     return __ballot_sync(~0u, test(lane));
   }
-  TOFRAY_FN bool any(bool mask) const { return __ballot_sync(~0u, mask) != 0; }
-  TOFRAY_FN void unite(int, pipeline::Rectangle<float>& seen) const {
+  TOFRAY_INLINE bool any(bool mask) const { return __ballot_sync(~0u, mask) != 0; }
+  TOFRAY_INLINE void unite(int, pipeline::Rectangle<float>& seen) const {
     seen.open = __any_sync(~0u, seen.open) != 0;
     for (int apart = warp_size / 2; apart > 0; apart /= 2) {
       seen.x_min = num::min(seen.x_min, __shfl_xor_sync(~0u, seen.x_min, apart));
@@ -33,15 +33,15 @@ struct DeviceWarp {
       seen.y_max = num::max(seen.y_max, __shfl_xor_sync(~0u, seen.y_max, apart));
     }
   }
-  TOFRAY_FN static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
+  TOFRAY_INLINE static int lowest_bit(std::uint32_t word) { return __ffs(static_cast<int>(word)) - 1; }
 #else
   template <class Test>
-  TOFRAY_FN std::uint32_t vote(const void*, Test) const {
+  TOFRAY_INLINE std::uint32_t vote(const void*, Test) const {
     return 0;
   }
-  TOFRAY_FN bool any(bool) const { return false; }
-  TOFRAY_FN void unite(int, pipeline::Rectangle<float>&) const {}
-  TOFRAY_FN static int lowest_bit(std::uint32_t) { return 0; }
+  TOFRAY_INLINE bool any(bool) const { return false; }
+  TOFRAY_INLINE void unite(int, pipeline::Rectangle<float>&) const {}
+  TOFRAY_INLINE static int lowest_bit(std::uint32_t) { return 0; }
 #endif
 };
 

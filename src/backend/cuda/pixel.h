@@ -21,11 +21,13 @@ using pipeline::Setup;
 constexpr int warp_size = 32, patch_width = 16, patch_height = 2;
 constexpr int max_block_size = 1024;
 
-TOFRAY_FN int patches_across(const camera::LensView& lens) { return (lens.width + patch_width - 1) / patch_width; }
-TOFRAY_FN int patch_count(const camera::LensView& lens) { return patches_across(lens) * ((lens.height + patch_height - 1) / patch_height); }
+TOFRAY_INLINE int patches_across(const camera::LensView& lens) { return (lens.width + patch_width - 1) / patch_width; }
+TOFRAY_INLINE int patch_count(const camera::LensView& lens) {
+  return patches_across(lens) * ((lens.height + patch_height - 1) / patch_height);
+}
 
 /// Pixel of one lane. A lane beyond the image does its edge once more, so that all lanes go the same way: both write the same.
-TOFRAY_FN Pixels pixel_of(const camera::LensView& lens, int patch, int lane) {
+TOFRAY_INLINE Pixels pixel_of(const camera::LensView& lens, int patch, int lane) {
   const int across = patches_across(lens);
   const int x = patch % across * patch_width + lane % patch_width, y = patch / across * patch_height + lane / patch_width;
   return {(y < lens.height ? y : lens.height - 1) * lens.width + (x < lens.width ? x : lens.width - 1), 1};
@@ -33,14 +35,14 @@ TOFRAY_FN Pixels pixel_of(const camera::LensView& lens, int patch, int lane) {
 
 /// A way through the forms that a bundle of rays can meet, 32 at a time.
 template <class Warp, class Form>
-struct WarpWalk {
+struct WarpFormIterator {
   Warp& warp;
   const Form* forms;
   int count, base;
   const flow::Bounds* within;  ///< null: all of them
   std::uint32_t left;          ///< those of the 32 from `base` on that are still to come
 
-  TOFRAY_FN bool more() {
+  TOFRAY_INLINE bool more() {
     while (left == 0) {
       base += warp_size;
       if (base >= count) return false;
@@ -48,11 +50,11 @@ struct WarpWalk {
     }
     return true;
   }
-  TOFRAY_FN const Form& form() const { return forms[base + Warp::lowest_bit(left)]; }
-  TOFRAY_FN void next() { left &= left - 1; }
+  TOFRAY_INLINE const Form& form() const { return forms[base + Warp::lowest_bit(left)]; }
+  TOFRAY_INLINE void next() { left &= left - 1; }
 
  private:
-  TOFRAY_FN std::uint32_t vote() const {
+  TOFRAY_INLINE std::uint32_t vote() const {
     return warp.vote(forms + base, [&](int lane) { return base + lane < count && can_meet(forms[base + lane], *within); });
   }
 };
@@ -64,7 +66,7 @@ struct WarpCulled {
   const flow::Bounds* within;
   scene::Forms forms;
   template <class T>
-  TOFRAY_FN WarpWalk<Warp, typename T::Form> walk() const {
+  TOFRAY_INLINE WarpFormIterator<Warp, typename T::Form> iterate() const {
     return {warp, forms.of<T>().at, forms.of<T>().count, -warp_size, within, 0};
   }
 };
@@ -79,13 +81,13 @@ struct WarpNear {
   flow::Bounds from_light;
   bool all_from_light;
 
-  TOFRAY_FN WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
+  TOFRAY_INLINE WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
 
-  TOFRAY_FN bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
-  TOFRAY_FN bool any(bool mask) const { return warp.any(mask); }
-  TOFRAY_FN bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
+  TOFRAY_INLINE bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
+  TOFRAY_INLINE bool any(bool mask) const { return warp.any(mask); }
+  TOFRAY_INLINE bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
   /// The rectangle that holds the rays of all lanes from a light to their surfaces.
-  TOFRAY_FN void look(int moment, int light, const flow::Ray<float>& ray, bool use) {
+  TOFRAY_INLINE void look(int moment, int light, const flow::Ray<float>& ray, bool use) {
     if (!culling) return;
     pipeline::Rectangle<float> seen;
     seen.add(ray.x, ray.y, ray.z, use);
@@ -93,67 +95,67 @@ struct WarpNear {
     all_from_light = seen.open;
     from_light = seen.bounds();
   }
-  TOFRAY_FN WarpCulled<Warp> still_from_camera(const Setup& s) const { return {warp, from_camera, s.scene.camera_still()}; }
-  TOFRAY_FN WarpCulled<Warp> moving_from_camera(const Setup& s, int moment) const {
+  TOFRAY_INLINE WarpCulled<Warp> still_from_camera(const Setup& s) const { return {warp, from_camera, s.scene.camera_still()}; }
+  TOFRAY_INLINE WarpCulled<Warp> moving_from_camera(const Setup& s, int moment) const {
     return {warp, from_camera, s.scene.camera_moving(moment)};
   }
-  TOFRAY_FN WarpCulled<Warp> still_from(const Setup& s, int light) const { return {warp, seen_by_light(), s.scene.light_still(light)}; }
-  TOFRAY_FN WarpCulled<Warp> moving_from(const Setup& s, int moment, int light) const {
+  TOFRAY_INLINE WarpCulled<Warp> still_from(const Setup& s, int light) const { return {warp, seen_by_light(), s.scene.light_still(light)}; }
+  TOFRAY_INLINE WarpCulled<Warp> moving_from(const Setup& s, int moment, int light) const {
     return {warp, seen_by_light(), s.scene.light_moving(moment, light)};
   }
   /// The sun's rays have no common origin: each looks at everything.
-  TOFRAY_FN void look_along(const Setup&, int, const flow::Place<float>&) const {}
-  TOFRAY_FN trace::Uncut<scene::Alongs> still_along(const Setup& s) const { return {s.scene.sun_still()}; }
-  TOFRAY_FN trace::Uncut<scene::Alongs> moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
+  TOFRAY_INLINE void look_along(const Setup&, int, const flow::Place<float>&) const {}
+  TOFRAY_INLINE trace::Uncut<scene::Alongs> still_along(const Setup& s) const { return {s.scene.sun_still()}; }
+  TOFRAY_INLINE trace::Uncut<scene::Alongs> moving_along(const Setup& s, int moment) const { return {s.scene.sun_moving(moment)}; }
   /// Each ray looks at meshes by itself.
   static constexpr int sun = 0;
   template <class F>
-  TOFRAY_FN bool behind_still_meshes(int) const {
+  TOFRAY_INLINE bool behind_still_meshes(int) const {
     return false;
   }
   template <class F>
-  TOFRAY_FN bool behind_moving_meshes(int) const {
+  TOFRAY_INLINE bool behind_moving_meshes(int) const {
     return false;
   }
 
  private:
-  TOFRAY_FN const flow::Bounds* seen_by_light() const { return culling && !all_from_light ? &from_light : nullptr; }
+  TOFRAY_INLINE const flow::Bounds* seen_by_light() const { return culling && !all_from_light ? &from_light : nullptr; }
 };
 
 /// The mean of the light over an exposure; where nothing moves it needs no memory of its own.
 template <bool can_move>
 struct MeanLight {
   flow::Light<float> light;
-  TOFRAY_FN flow::Light<float>& in(flow::Light<float>&) { return light; }
+  TOFRAY_INLINE flow::Light<float>& in(flow::Light<float>&) { return light; }
 };
 template <>
 struct MeanLight<false> {
-  TOFRAY_FN flow::Light<float>& in(flow::Light<float>& only) { return only; }
+  TOFRAY_INLINE flow::Light<float>& in(flow::Light<float>& only) { return only; }
 };
 
 /// One pixel.
 template <bool can_move, class Warp>
-class PixelWalk {
+class PixelSource {
  public:
-  TOFRAY_FN PixelWalk(const Setup& s, const Job& job, Warp& warp, int patch, int lane)
+  TOFRAY_INLINE PixelSource(const Setup& s, const Job& job, Warp& warp, int patch, int lane)
       : s_(s), job_(job), pixels_(pixel_of(s.lens, patch, lane)), near_(warp, s.culling != 0 ? s.lens.tile + patch : nullptr) {
     still_ = pipeline::see_still(s, near_, camera::ray<float>(s.lens, pixels_));
     hit_ = still_;
   }
 
-  TOFRAY_FN int moments() const { return near_.moves(s_) ? s_.scene.moments : 1; }
+  TOFRAY_INLINE int moments() const { return near_.moves(s_) ? s_.scene.moments : 1; }
   static constexpr bool once() { return false; }
-  TOFRAY_FN int packs() const { return 1; }
-  TOFRAY_FN Pixels pixels(int) const { return pixels_; }
-  TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
-  TOFRAY_FN pipeline::Pack<float>& pack(int) { return pack_; }
-  static constexpr bool blurs = can_move, written_out = true;
-  TOFRAY_FN flow::Light<float>& mean(int) { return mean_.in(pack_.light); }
-  TOFRAY_FN void go_to(const pipeline::Moment& now) {
+  TOFRAY_INLINE int packs() const { return 1; }
+  TOFRAY_INLINE Pixels pixels(int) const { return pixels_; }
+  TOFRAY_INLINE Pixels ahead(int) const { return {0, 0}; }
+  TOFRAY_INLINE pipeline::PackState<float>& pack(int) { return pack_; }
+  static constexpr bool blurs = can_move, inlined = true;
+  TOFRAY_INLINE flow::Light<float>& mean(int) { return mean_.in(pack_.light); }
+  TOFRAY_INLINE void go_to(const pipeline::Moment& now) {
     if (near_.moves(s_)) hit_ = pipeline::see_moving(s_, near_, now.index, camera::ray<float>(s_.lens, pixels_), still_);
   }
-  TOFRAY_FN bool find_light(const pipeline::Moment& now, int, const Pixels& p, const flow::Ray<float>& ray, float vignetting,
-                            pipeline::Pack<float>& pack) {
+  TOFRAY_INLINE bool find_light(const pipeline::Moment& now, int, const Pixels& p, const flow::Ray<float>& ray, float vignetting,
+                                pipeline::PackState<float>& pack) {
     return pipeline::light_of_scene(s_, job_, near_, now, p, ray, still_, hit_, vignetting, pack.light, pack.undisturbed);
   }
 
@@ -163,31 +165,31 @@ class PixelWalk {
   Pixels pixels_;
   WarpNear<can_move, Warp> near_;
   flow::Hit<float> still_, hit_;
-  pipeline::Pack<float> pack_;
+  pipeline::PackState<float> pack_;
   MeanLight<can_move> mean_;
 };
 
 /// From ray to depth. All lanes of a warp must come here together.
 template <bool can_move, class Warp>
-TOFRAY_FN void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
-  PixelWalk<can_move, Warp> walk(s, job, warp, patch, lane);
-  pipeline::run_pipeline<float>(s, job, walk);
+TOFRAY_INLINE void run_pixel(const Setup& s, const Job& job, Warp& warp, int patch, int lane) {
+  PixelSource<can_move, Warp> source(s, job, warp, patch, lane);
+  pipeline::run_pipeline<float>(s, job, source);
 }
 
 /// Unit number `unit` of what is derived of a frame's scene.
-TOFRAY_FN void run_derive(const Setup& s, scene::Derive what, int unit) {
+TOFRAY_INLINE void run_derive(const Setup& s, scene::Derive what, int unit) {
   if (unit < scene::unit_count(s.scene, what)) scene::derive(s.scene, what, unit);
 }
 
 /// How much there is to do in a pass over images: its pixels; or the sensor's lines in all raw frames.
 template <class P>
-TOFRAY_FN int units_of(const Setup& s) {
+TOFRAY_INLINE int units_of(const Setup& s) {
   return P::over == pipeline::Over::raw_frames ? effect::LineNoise::line_draws(s.sensor) : s.lens.width * s.lens.height;
 }
 
 /// Unit number `index` of a pass over images.
 template <class P>
-TOFRAY_FN void run_unit(const pipeline::PassWork& work, int index) {
+TOFRAY_INLINE void run_unit(const pipeline::PassWork& work, int index) {
   if (index >= units_of<P>(work.s)) return;
   if constexpr (P::over == pipeline::Over::raw_frames) {
     P::line(work, index);
@@ -198,13 +200,13 @@ TOFRAY_FN void run_unit(const pipeline::PassWork& work, int index) {
 
 /// The place of an array in the frame that lies `bytes` further on.
 template <class T>
-TOFRAY_FN T* shifted(T* array, std::int64_t bytes) {
+TOFRAY_INLINE T* shifted(T* array, std::int64_t bytes) {
   return array == nullptr ? nullptr : reinterpret_cast<T*>(reinterpret_cast<char*>(array) + bytes);
 }
 
 /// Makes the job that a batch has in common that of one frame, whose arrays are `bytes` further on.
 /// @param worker  does its share of it: all from 0 to `array_count` on are needed, in any order
-TOFRAY_FN void take_frame(const FrameNumber& number, std::int64_t bytes, int worker, Job& job) {
+TOFRAY_INLINE void take_frame(const FrameNumber& number, std::int64_t bytes, int worker, Job& job) {
   if (worker == 0) {
     job.index_low = number.low, job.index_high = number.high;
     job.scratch = shifted(job.scratch, bytes);

@@ -90,7 +90,7 @@ std::vector<Share> shares_of(const std::vector<Illumination>& lights, const std:
   return shares;
 }
 
-/// Harmonics of light that comes from all sources by their shares: Σ_l w_l·a_m,l·e^{iψ_m,l}.                 [theory: eq. 4.15]
+/// Harmonics of light that comes from all sources by their shares: Σ_l w_l·a_m,l·e^{iψ_m,l}.           [theory: several-lights]
 /// Where there is no light source, a sine stands for it.
 std::vector<Harmonic> harmonics_of(const std::vector<Share>& shares, const Pixel& pixel, double frequency) {
   if (shares.empty()) return {{1, 1, 0}};
@@ -118,7 +118,8 @@ std::vector<float> with_steps(const std::vector<double>& values) {
   return out;
 }
 
-/// What a specimen's calibration says of measured phases: all that they are too large by, but for the pixel's own part.    [theory: eq. 4.35]
+/// What a specimen's calibration says of measured phases: all that they are too large by, but for the pixel's own part.
+///                                                                                                           [theory: specimen-calibration]
 std::vector<double> correction_of(const FrequencyCalibration& one, double drifted_m, double half_wave, bool wiggles) {
   std::vector<double> out;
   for (int j = 0; j < wiggling_nodes; ++j) {
@@ -200,7 +201,7 @@ void FrozenDecoder::take_integration_times() {
 }
 
 /// The mean of |L|², not the square of the mean: then ℓ² − 2rℓ = |L|² − 2r·u·L holds of the means, but for the paths' spread.
-///                                                                                                    [theory: eq. 4.15]
+///                                                                                              [theory: several-lights]
 void FrozenDecoder::freeze_lights() {
   const std::vector<Share> shares = shares_of(camera_.illumination, lights_);
   Vec3 mean{0, 0, 0};

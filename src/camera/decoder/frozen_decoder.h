@@ -12,7 +12,8 @@
 
 namespace tofray::camera {
 
-/// The correlation's harmonics as depth takes them: those of the mean of all lights, whatever of them is corrected.      [theory: eq. 4.15]
+/// The correlation's harmonics as depth takes them: those of the mean of all lights, whatever of them is corrected.
+///                                                                                                                 [theory: several-lights]
 /// @param lights  of the camera, frozen
 std::vector<Harmonic> mean_harmonics(const Camera& camera, const std::vector<LightView>& lights, double frequency_hz);
 

@@ -17,7 +17,7 @@ namespace tofray::camera {
 ///     P_m = (1/N) Σ_k e^{i(m−1)τ_k},   Q_m = (1/N) Σ_k e^{−i(m+1)τ_k}
 ///
 /// For N equally spaced phases from τ_0 = 0 on, P_m is 1 for m ≡ 1, Q_m for m ≡ −1 (mod N), and otherwise 0: only these harmonics leak.
-/// For four phases this is [theory: eq. 3.5].
+/// For four phases this is [theory: wiggling].
 class PhaseResponse {
  public:
   /// @param reference_phases_rad τ_k, at least 3
@@ -43,8 +43,9 @@ class PhaseResponse {
 
 /// What a measured phase says of a single noise-free path, at n equidistant φ̂: node j stands at j/n turns.
 struct WigglingTable {
-  std::vector<double> correction;  ///< φ − φ̂ [turns]; period one turn, without jumps (it can lie outside ±0.5 because of ψ_1)   [eq. 4.3]
-  std::vector<double> amplitude;  ///< Â = |Ẑ| of one electron of light                                                          [eq. 4.9]
+  std::vector<double> correction;  ///< φ − φ̂ [turns]; period one turn, without jumps (it can lie outside ±0.5 because of ψ_1)
+                                   ///<                                                                      [theory: wiggling-correction]
+  std::vector<double> amplitude;  ///< Â = |Ẑ| of one electron of light                                           [theory: noise-estimate]
 };
 
 /// Table that takes a measured phase back to the true one: φ = φ̂ + correction(φ̂), ψ_1 taken out as well, and its amplitude to the light.

@@ -81,7 +81,7 @@ inline double growing_radius_squared(const Lens& lens) {
   return farthest;
 }
 
-/// Undistorted (x, y) = (X/Z, Y/Z) → distorted, r² = x² + y².                                          [theory: eq. 1.7, 1.8]
+/// Undistorted (x, y) = (X/Z, Y/Z) → distorted, r² = x² + y².                                [theory: brown-conrady, fisheye]
 ///     Brown–Conrady:  x' = x·g + 2p1xy + p2(r² + 2x²),  y' = y·g + p1(r² + 2y²) + 2p2xy,
 ///                     g = (1 + k1r² + k2r⁴ + k3r⁶)/(1 + k4r² + k5r⁴ + k6r⁶)
 ///     fisheye:        x' = x·g,  y' = y·g,  g = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸)/r,  tan θ = r

@@ -56,7 +56,7 @@ FrozenScatter::FrozenScatter(const Scatter& scatter, const Sensor& sensor, const
   view_.terms = static_cast<std::int32_t>(terms_.size()), view_.term = terms_.data();
 }
 
-/// Of its light a pixel gives a share to the neighbours on either side, of what the lens has brought there.           [theory: eq. 3.27]
+/// Of its light a pixel gives a share to the neighbours on either side, of what the lens has brought there.          [theory: crosstalk]
 void FrozenScatter::add_sharing(const Pixel& pixel) {
   if (!effect::Crosstalk::on(pixel)) return;
   view_.shares = 1;
@@ -74,7 +74,7 @@ void FrozenScatter::add_separable(const Weights& row, const Weights& column) {
   terms_.push_back({radius, weights_[weights_.size() - 2].data(), weights_.back().data()});
 }
 
-/// Integrals over pixels, or as far as the sensor goes.                                                             [theory: eq. 7.5]
+/// Integrals over pixels, or as far as the sensor goes.                                                   [theory: scatter-gaussians]
 void FrozenScatter::add_gaussians(const Scatter& scatter, int most) {
   double sum = 0;
   const auto weight = [&](std::size_t i) { return scatter.weights.empty() ? 1.0 : scatter.weights[i]; };

@@ -14,16 +14,16 @@ struct RadialMotion {
   num::Mask<F> inward;
 };
 
-/// Without a difference of like numbers, of polynomials and their quotient:                             [theory: eq. 1.7]
+/// Without a difference of like numbers, of polynomials and their quotient:                       [theory: brown-conrady]
 ///     p(r'²) − p(r²) = c·(k1 + k2(r² + r'²) + k3(r⁴ + r²r'² + r'⁴))
 template <class F>
-TOFRAY_FN RadialMotion<F> brown_conrady_motion(const ProjectionView& lens, F from, F to, F c) {
+TOFRAY_INLINE RadialMotion<F> brown_conrady_motion(const ProjectionView& lens, F from, F to, F c) {
   const F squares = num::fma(from, from, num::fma(from, to, to * to)), sum = from + to;
   const F at = num::fma(to, num::fma(to, num::fma(to, F(lens.k3), F(lens.k2)), F(lens.k1)), F(1.0f));
   const F change = c * num::fma(F(lens.k3), squares, num::fma(F(lens.k2), sum, F(lens.k1)));
   const num::Mask<F> never = F(1.0f) < F(0.0f);
   if (lens.k4 == 0 && lens.k5 == 0 && lens.k6 == 0) return {at, change, never};
-  const auto below = [&](F square) __attribute__((always_inline)) {
+  const auto below = [&](F square) TOFRAY_LAMBDA {
     return num::fma(square, num::fma(square, num::fma(square, F(lens.k6), F(lens.k5)), F(lens.k4)), F(1.0f));
   };
   const F below_change = c * num::fma(F(lens.k6), squares, num::fma(F(lens.k5), sum, F(lens.k4)));
@@ -32,17 +32,17 @@ TOFRAY_FN RadialMotion<F> brown_conrady_motion(const ProjectionView& lens, F fro
   return {g, num::fnma(g, below_change, change) / below(from), never};
 }
 
-/// θ_d = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸), g = θ_d/r:                                                    [theory: eq. 1.8]
+/// θ_d = θ(1 + k1θ² + k2θ⁴ + k3θ⁶ + k4θ⁸), g = θ_d/r:                                                    [theory: fisheye]
 ///     g' − g = ((θ_d' − θ_d)·r − θ_d·(r' − r))/(r·r'),   θ' − θ = atan((r' − r)/(1 + r·r'))
 template <class F>
-TOFRAY_FN RadialMotion<F> fisheye_motion(const ProjectionView& lens, F from, F to, F c) {
+TOFRAY_INLINE RadialMotion<F> fisheye_motion(const ProjectionView& lens, F from, F to, F c) {
   constexpr float turn = 6.2831853f, nothing = 1e-15f;  // so near the axis g is 1
   const F r = num::max(num::sqrt(from), F(nothing)), to_r = num::max(num::sqrt(to), F(nothing));
   const F step = c / (r + to_r), one = F(1.0f);
   const F angle = F(turn) * num::atan2_turns(r, one), to_angle = F(turn) * num::atan2_turns(to_r, one);
   const F turned = F(turn) * num::atan2_turns(step, num::fma(r, to_r, one));
   const F a = angle * angle, b = to_angle * to_angle, cross = angle * to_angle;
-  const auto radius = [&](F s, F square) __attribute__((always_inline)) {
+  const auto radius = [&](F s, F square) TOFRAY_LAMBDA {
     const F k = num::fma(square, num::fma(square, num::fma(square, F(lens.k4), F(lens.k3)), F(lens.k2)), F(lens.k1));
     return s * num::fma(square, k, one);
   };
@@ -69,7 +69,7 @@ TOFRAY_FN RadialMotion<F> fisheye_motion(const ProjectionView& lens, F from, F t
 ///
 /// @return false where it ends behind the camera or outside the lens model; u and v are any number there
 template <class F>
-TOFRAY_FN num::Mask<F> image_motion(const ProjectionView& lens, const flow::Ray<F>& ray, F z, const flow::Direction<F>& m, F& u, F& v) {
+TOFRAY_INLINE num::Mask<F> image_motion(const ProjectionView& lens, const flow::Ray<F>& ray, F z, const flow::Direction<F>& m, F& u, F& v) {
   const F depth = z + m.z;
   const auto ahead = depth > F(0.0f);
   const F per_depth = F(1.0f) / num::select(ahead, depth, F(1.0f));

@@ -15,7 +15,7 @@ struct SubpixelSample {
 
 /// n × n places, row by row: the middles of as many cells of the square of area fill_factor·pitch² in the pixel's middle, a share 1/n² each;
 /// of a pixel with a mask, of cells of the whole pixel, whose shares are what the mask lets through there; none where that is nothing.
-///                                                                                                    [theory: eq. 7.2]
+///                                                                                           [theory: subpixel-samples]
 /// @throws Error (bad_input) where the mask lets nothing through
 std::vector<SubpixelSample> subpixel_samples(const Sensor& sensor, int n);
 

@@ -46,15 +46,16 @@ struct ScatterTerm {
   const float* column;   ///< [2·radius + 1]
 };
 
-/// Light that lens and filter scatter over the sensor, kept·δ + Σ_terms K, and after it charge that neighbours collect. [theory: eq. 3.27, 7.4]
+/// Light that lens and filter scatter over the sensor, kept·δ + Σ_terms K, and after it charge that neighbours collect.
+///                                                                                                        [theory: crosstalk, lens-scatter]
 struct ScatterView {
   float kept;  ///< 1 − share of the lens's scatter
   std::int32_t terms;
   std::int32_t separable;  ///< all of them are, but for the last one if it is what neighbours collect, which always is
   std::int32_t shares;     ///< 1: the last one is; it takes what those before have brought
   const ScatterTerm* term;
-  [[nodiscard]] TOFRAY_FN bool is_sharing(int item) const { return shares != 0 && item + 1 == terms; }
-  [[nodiscard]] TOFRAY_FN bool has_rows(int item) const { return separable != 0 || is_sharing(item); }
+  [[nodiscard]] TOFRAY_INLINE bool is_sharing(int item) const { return shares != 0 && item + 1 == terms; }
+  [[nodiscard]] TOFRAY_INLINE bool has_rows(int item) const { return separable != 0 || is_sharing(item); }
   bool operator==(const ScatterView&) const = default;
 };
 

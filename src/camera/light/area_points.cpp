@@ -28,7 +28,7 @@ void into_columns(std::vector<Vec3>& points, std::size_t axis, const MiddleOf& m
 }
 
 /// A cell of equal area for each point, as near to squares as rows of them can be. Within its row a point stands one step higher than the
-/// next, within its cell one step further right than in the row before.                                          [theory: eq. 2.21]
+/// next, within its cell one step further right than in the row before.                                   [theory: rectangle-light]
 std::vector<Vec3> in_rectangle(double width, double height, int points) {
   int rows = 1;
   while (rows < points && rows * (rows + 1) < points * height / width) ++rows;
@@ -55,7 +55,7 @@ double line_of(double share) {
 }
 
 /// A spiral of pairs on either side of the middle, as far out as their share of the area is, half a golden turn from pair to pair; then
-/// each point moves into a column and a row of its own.                                                          [theory: eq. 2.22]
+/// each point moves into a column and a row of its own.                                                        [theory: disk-light]
 std::vector<Vec3> in_disk(double radius, int points) {
   constexpr double first_turn = 0.505;  // with it no point of 1 to 64 leaves the disk by more than 0.2 % where it moves
   const double half_golden_turn = pi * (std::sqrt(5.0) - 1) / 2;

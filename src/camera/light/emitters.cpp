@@ -21,7 +21,7 @@ Mat3 source_axes(const Vec3& direction) {
 
 namespace {
 
-/// The points of an area at each LED of a ring, or the one source that there is.                       [theory: eq. 2.15, 2.21, 2.22]
+/// The points of an area at each LED of a ring, or the one source that there is.      [theory: led-ring, rectangle-light, disk-light]
 void append_emitters(const Illumination& light, std::vector<Illumination>& out) {
   const Mat3 axes = source_axes(light.axis);
   const std::vector<Vec3> points = points_of(light.area);

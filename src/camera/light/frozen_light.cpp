@@ -143,10 +143,10 @@ PowerView power_view(const Camera& camera) {
   const Sensor& sensor = camera.sensor;
   const double area = sensor.pixel_pitch_m * sensor.pixel_pitch_m * sensor.fill_factor;
   const double number = camera.lens.f_number;
-  out.watts_per_radiance = single(pi * camera.lens.transmission * area / (4 * number * number));  // [theory: eq. 2.5, 2.6]
+  out.watts_per_radiance = single(pi * camera.lens.transmission * area / (4 * number * number));  // [theory: image-irradiance, pixel-power]
   out.paper_literal = camera.power_model == PowerModel::paper_literal;
   const double focal_mm = 1e3 * camera.lens.fx_px * sensor.pixel_pitch_m;
-  out.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));  // [theory: eq. 2.11]
+  out.paper_scale = single(pi * area / (4 * number * number * focal_mm * focal_mm));  // [theory: paper-formula]
   return out;
 }
 

@@ -105,7 +105,7 @@ void FrozenSensor::freeze_gates(double half_path_m) {
   }
 }
 
-/// What another camera's light does in each raw frame of a frame.                                           [theory: eq. 3.24]
+/// What another camera's light does in each raw frame of a frame.                                       [theory: interference]
 void FrozenSensor::freeze_other_camera(double time_s, std::uint64_t index) {
   const Interference& other = camera_.interference;
   for (std::size_t k = 0; k < raw_frames_.size(); ++k) {

@@ -6,7 +6,7 @@
 #include "num/philox.h"
 #include "tofray/camera.h"
 
-/// Light of another camera, as the gate of one raw frame meets it.                                            [theory: eq. 3.24]
+/// Light of another camera, as the gate of one raw frame meets it.                                        [theory: interference]
 namespace tofray::camera {
 
 /// Another camera's light in one raw frame, over the camera's own illumination.

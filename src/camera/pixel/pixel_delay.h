@@ -5,10 +5,10 @@
 
 namespace tofray::camera {
 
-/// How late pixels are at one modulation frequency [s]: their fixed delay, and their fixed phase there.           [theory: eq. 3.17]
+/// How late pixels are at one modulation frequency [s]: their fixed delay, and their fixed phase there.       [theory: phase-offset]
 /// @param from  a SensorView or DecoderView that has delays
 template <class F, class View>
-TOFRAY_FN F late_by(const View& from, int modulation, const flow::Pixels& p) {
+TOFRAY_INLINE F late_by(const View& from, int modulation, const flow::Pixels& p) {
   return num::load<F>(from.delay + modulation * from.delay_stride + p.index, p.count);
 }
 

@@ -28,7 +28,7 @@ struct PatternKey {
 };
 
 /// Of pixels of the specimen, each one its own draw from a stream of the sensor's seed; the mean over those that are read together.
-///                                                                                                              [theory: eq. 4.26]
+///                                                                                                       [theory: binned-patterns]
 std::vector<float> pattern(const PatternKey& of) {
   const auto keys = num::round_keys(static_cast<std::uint32_t>(of.seed), static_cast<std::uint32_t>(of.seed >> 32));
   const auto of_pixel = [&](int x, int y) {
@@ -83,7 +83,7 @@ PixelPatterns::PixelPatterns(const Camera& profile, const ImageCamera& camera, c
   offset_ = drawn(of, pixel.dsnu_dn * together, 0, -infinite, dsnu);  // offsets are charge, which adds
   delay_ = drawn(of, pixel.delay_s, 0, -infinite, delays);
   if (pixel.phase_offset_rad == 0) return;
-  // A phase at one modulation frequency is a delay there.                                                  [theory: eq. 3.17]
+  // A phase at one modulation frequency is a delay there.                                              [theory: phase-offset]
   for (std::size_t j = 0; j < modulations.frequency_hz.size(); ++j) {
     const Map phase = drawn(of, pixel.phase_offset_rad, 0, -infinite, phases + static_cast<std::uint32_t>(j));
     for (std::size_t i = 0; i < pixels_; ++i) {

@@ -11,7 +11,7 @@
 namespace tofray::camera {
 
 /// Gains, offsets, delays and phases that differ from pixel to pixel of a specimen; owns what a view points to. Not copied.
-///                                                                                              [theory: eq. 3.17, 4.26]
+///                                                                               [theory: phase-offset, binned-patterns]
 class PixelPatterns {
  public:
   /// @param profile  whose sensor has all pixels: which of them are read, or read together, is in what they draw

@@ -6,7 +6,7 @@
 
 namespace tofray::camera {
 
-/// Half path by which the sensor has drifted at a time [m]: with the temperature, and while it warms up.   [theory: eq. 3.36]
+/// Half path by which the sensor has drifted at a time [m]: with the temperature, and while it warms up.  [theory: temperature-drift]
 /// @param time_s  after the start of the first frame
 inline double drift_m(const Temperature& t, double time_s) {
   const double warm = t.warm_up_m == 0 ? 0 : t.warm_up_m * (1 - num::setup::exp(-(t.since_start_s + time_s) / t.warm_up_time_s));

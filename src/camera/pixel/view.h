@@ -19,7 +19,7 @@ using effect::SensorView;
 struct ModulationView {
   float turns_per_metre_high, turns_per_metre_low;  ///< f·n/c in two parts
   float frequency;                                  ///< [Hz], for delays by pixel
-  float swept_turns_per_metre;  ///< half the swept band's width·n/c; 0: nothing is swept                        [theory: eq. 3.30]
+  float swept_turns_per_metre;  ///< half the swept band's width·n/c; 0: nothing is swept                 [theory: spread-spectrum]
   const float* source;          ///< [light][orders][2] a_m·e^{i(ψ_m + mτ_0)} of each light, τ_0 the modulation's first reference phase
 };
 

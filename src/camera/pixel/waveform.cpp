@@ -48,14 +48,14 @@ std::complex<double> harmonic_of(const std::vector<double>& samples, int m) {
   return {2.0 / n * real, 2.0 / n * imaginary};
 }
 
-/// L_m of light 1 + Σ_m Re L_m·e^{2πimft} whose edges differ: its slope is a box of unit area at either edge.     [theory: eq. 3.20]
+/// L_m of light 1 + Σ_m Re L_m·e^{2πimft} whose edges differ: its slope is a box of unit area at either edge.  [theory: trapezoid-pulse]
 std::complex<double> trapezoid(int m, const Waveform& w, double frequency_hz) {
   const double rise = sinc(m * frequency_hz * w.rise_time_s), fall = sinc(m * frequency_hz * w.fall_time_s), angle = pi * m * w.duty;
   const double per = 1 / (pi * m * w.duty);
   return {per * setup::sin(angle) * (rise + fall), per * setup::cos(angle) * (fall - rise)};
 }
 
-/// Light of mean 1 out of a measured one.                                                                [theory: eq. 3.22]
+/// Light of mean 1 out of a measured one.                                                             [theory: square-gate]
 std::vector<double> emitted(const Waveform& w) {
   std::vector<double> light = w.sample_phases_rad.empty() ? w.emission : base::over_a_period(w.sample_phases_rad, w.emission);
   double mean = 0;
@@ -79,7 +79,7 @@ Harmonic ideal_harmonic(int m, const Waveform& waveform, double frequency_hz, co
     case Waveform::Kind::emission: return against_gate(m, harmonic_of(light, m));
     case Waveform::Kind::gaussian: {
       const double angle = 2.0 * pi * m * frequency_hz * waveform.sigma_s;
-      return {m, gate_amplitude(m) * setup::exp(-0.5 * angle * angle), 0.0};  // [theory: eq. 3.21]
+      return {m, gate_amplitude(m) * setup::exp(-0.5 * angle * angle), 0.0};  // [theory: gaussian-pulse]
     }
     default: break;
   }

@@ -39,7 +39,7 @@ void repeat_mask(Sensor& sensor, int n) {
   mask = std::move(out);
 }
 
-/// Directions stay what they are; pixels are n times as large.                                              [eq. 4.24]
+/// Directions stay what they are; pixels are n times as large.                                  [theory: image-pixels]
 void bin_lens(Lens& lens, int n) {
   constexpr double narrowest = 0.1;  // [px] of a Gaussian: it stays in its pixel
   lens.fx_px /= n, lens.fy_px /= n;

@@ -7,8 +7,8 @@
 
 namespace tofray::pipeline {
 
-/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: eq. 3.32]
-TOFRAY_FN void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
+/// A pixel that gets more than the limit of what its neighbours' wells cannot hold is flagged as saturated.  [theory: blooming]
+TOFRAY_INLINE void bloom_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
   const float* const over = overflow_in(s, job);
   float spilled = 0;
@@ -33,7 +33,7 @@ struct Blooming {
   static bool wanted(const Setup& s, const Job&, Stage entry) { return s.sensor.blooms != 0 && entry != Stage::depth; }
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     for (int at = p.index; at < p.index + p.count; ++at) bloom_pixel(w.s, w.job, at % w.s.lens.width, at / w.s.lens.width);
   }
 };

@@ -6,18 +6,18 @@
 
 namespace tofray::pipeline {
 
-/// Light from surface to surface, into the light image.                                                 [theory: eq. 7.6]
+/// Light from surface to surface, into the light image.                                                 [theory: bounces]
 struct Bounces {
   static constexpr const char* name = "bounces";
   static constexpr const char* does = "light from surface to surface";
   static constexpr Over over = Over::tiles;
   static constexpr int most_threads = heavy_block_threads;
 
-  TOFRAY_FN static std::int64_t rays(const Setup& s, int item) {
+  TOFRAY_INLINE static std::int64_t rays(const Setup& s, int item) {
     return 1 + 2 * std::int64_t{paths_of_step(s, item).count} * s.bounces.most;
   }
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     bounce_pixels<F>(w.s, w.job, w.item, p);
   }
 };

@@ -8,7 +8,7 @@
 namespace tofray::pipeline {
 
 /// Flags a flying pixel; z and noise are only read.
-TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
+TOFRAY_INLINE void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
   const int width = s.lens.width, at = y * width + x;
   if (!depth::flies<float>(s.decoder, {job.out.z_m + at, job.out.noise_m + at, width}, 1, y > 0 && y + 1 < s.lens.height,
                            x > 0 && x + 1 < width))
@@ -18,7 +18,7 @@ TOFRAY_FN void flag_flying_pixel(const Setup& s, const Job& job, int x, int y) {
 
 /// Flags the flying pixels of a row.
 template <class F>
-TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
+TOFRAY_INLINE void flag_flying_row(const Setup& s, const Job& job, int y) {
   const int width = s.lens.width;
   const bool has_rows = y > 0 && y + 1 < s.lens.height;
   const float *z = job.out.z_m + y * width, *noise = job.out.noise_m + y * width;
@@ -36,7 +36,7 @@ TOFRAY_FN void flag_flying_row(const Setup& s, const Job& job, int y) {
   }
 }
 
-/// Flags of flying pixels.                                                                              [theory: eq. 4.11]
+/// Flags of flying pixels.                                                                    [theory: flying-pixel-limit]
 struct FlyingPixels {
   static constexpr const char* name = "flying_pixels";
   static constexpr const char* does = "flags of flying pixels";
@@ -47,11 +47,11 @@ struct FlyingPixels {
   static bool wanted(const Setup& s, const Job&, Stage) { return s.decoder.flying_check != 0; }
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     flag_flying_pixel(w.s, w.job, p.index % w.s.lens.width, p.index / w.s.lens.width);
   }
   template <class F>
-  TOFRAY_FN static void row(const PassWork& w, int y) {
+  TOFRAY_INLINE static void row(const PassWork& w, int y) {
     flag_flying_row<F>(w.s, w.job, y);
   }
 };

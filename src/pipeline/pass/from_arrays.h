@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/enter.h"
+#include "pipeline/external_input.h"
 #include "pipeline/pass/pass.h"
 
 namespace tofray::pipeline {
@@ -14,7 +14,7 @@ struct FromArrays {
   static constexpr int most_threads = heavy_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     enter<F>(w.s, w.job, *w.input, p);
   }
 };

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// How far the two halves of a pixel's paths are apart.                                                 [theory: eq. 7.13]
+/// How far the two halves of a pixel's paths are apart.                                               [theory: path-noise]
 struct PathError {
   static constexpr const char* name = "path_error";
   static constexpr const char* does = "difference of the two halves of a pixel's paths";
@@ -14,7 +14,7 @@ struct PathError {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     store_path_error<F>(w.s, w.job.light, w.item, p);
   }
 };

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// The standard error of a pixel's light, by its own error and its neighbours', and who needs more paths.  [theory: eq. 7.13]
+/// The standard error of a pixel's light, by its own error and its neighbours', and who needs more paths.  [theory: path-noise]
 struct PathNoise {
   static constexpr const char* name = "path_noise";
   static constexpr const char* does = "standard error of bounced light, and who needs more paths";
@@ -14,7 +14,7 @@ struct PathNoise {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     store_path_noise<F>(w.s, w.job.light, w.item, p);
   }
 };

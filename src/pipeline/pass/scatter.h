@@ -5,7 +5,7 @@
 #include "pipeline/pass/pass.h"
 
 /// Light that lens and filter scatter over the sensor, and what neighbours then collect of it, as passes over the light image.
-///                                                                                                     [theory: eq. 7.4, 3.27]
+///                                                                                           [theory: lens-scatter, crosstalk]
 /// Each value is a sum in the order of its sources' rows and columns, whatever the machine. Nothing comes in from beyond the edges, and what
 /// goes there is lost.
 namespace tofray::pipeline {
@@ -18,7 +18,7 @@ struct RowPart {
 /// Σ_x' from(x', y)·K(x − x'), x' ascending.
 /// @param weights  K(0)
 template <class F>
-TOFRAY_FN F along_row(const float* row, int width, int x, int radius, const float* weights, F sum) {
+TOFRAY_INLINE F along_row(const float* row, int width, int x, int radius, const float* weights, F sum) {
   const int first = x - radius > 0 ? x - radius : 0, end = x + radius + num::lanes<F>;
   const int last = (end < width ? end : width) - 1;
   for (int at = first; at <= last; ++at) sum = num::fma(F(row[at]), num::load<F>(weights + (x - at), num::lanes<F>), sum);
@@ -27,7 +27,7 @@ TOFRAY_FN F along_row(const float* row, int width, int x, int radius, const floa
 
 /// Of one plane of the image: a separable kernel's first half.
 template <class F>
-TOFRAY_FN void scatter_row(const camera::ScatterTerm& term, int width, const RowPart& p, const float* from, float* to) {
+TOFRAY_INLINE void scatter_row(const camera::ScatterTerm& term, int width, const RowPart& p, const float* from, float* to) {
   const float* middle = term.weights + camera::ScatterTerm::pad + term.radius;
   const int row = p.y * width;
   num::store(to + row + p.x, along_row<F>(from + row, width, p.x, term.radius, middle, F(0.0f)), p.count);
@@ -35,8 +35,8 @@ TOFRAY_FN void scatter_row(const camera::ScatterTerm& term, int width, const Row
 
 /// Its second half, or a whole kernel that is not separable. What is scattered is added to what the terms before have brought.
 template <class F>
-TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width, int height, const RowPart& p, const float* from,
-                              const float* rows, float* to) {
+TOFRAY_INLINE void scatter_column(const camera::ScatterView& s, int item, int width, int height, const RowPart& p, const float* from,
+                                  const float* rows, float* to) {
   const camera::ScatterTerm& term = s.term[item];
   const int at = p.y * width + p.x, radius = term.radius;
   const int first = p.y - radius > 0 ? p.y - radius : 0, last = p.y + radius < height ? p.y + radius : height - 1;
@@ -57,11 +57,11 @@ TOFRAY_FN void scatter_column(const camera::ScatterView& s, int item, int width,
 }
 
 /// Where some pixels side by side lie in their row.
-TOFRAY_FN RowPart row_part(const PassWork& w, const Pixels& p) { return {p.index % w.s.lens.width, p.index / w.s.lens.width, p.count}; }
+TOFRAY_INLINE RowPart row_part(const PassWork& w, const Pixels& p) { return {p.index % w.s.lens.width, p.index / w.s.lens.width, p.count}; }
 
 /// Calls plane(from, rows, to) for each plane of the image, with what is scattered, what is scattered along rows alone, and all of it.
 template <class Plane>
-TOFRAY_FN void each_scattered_plane(const PassWork& w, const Plane& plane) {
+TOFRAY_INLINE void each_scattered_plane(const PassWork& w, const Plane& plane) {
   const flow::LightImage& image = w.job.light;
   const std::int64_t pixels = std::int64_t{w.s.lens.width} * w.s.lens.height;
   const int planes = image.times * light_planes(w.s, image.times);
@@ -78,12 +78,11 @@ struct ScatterRows {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     const int width = w.s.lens.width;
     const RowPart part = row_part(w, p);
-    each_scattered_plane(
-        w, [&](const float* from, float* rows, float*)
-               __attribute__((always_inline)) { scatter_row<F>(w.s.scatter.term[w.item], width, part, from, rows); });
+    each_scattered_plane(w, [&](const float* from, float* rows, float*)
+                                TOFRAY_LAMBDA { scatter_row<F>(w.s.scatter.term[w.item], width, part, from, rows); });
   }
 };
 
@@ -95,12 +94,11 @@ struct ScatterColumns {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     const int width = w.s.lens.width;
     const RowPart part = row_part(w, p);
-    each_scattered_plane(
-        w, [&](const float* from, float* rows, float* to)
-               __attribute__((always_inline)) { scatter_column<F>(w.s.scatter, w.item, width, w.s.lens.height, part, from, rows, to); });
+    each_scattered_plane(w, [&](const float* from, float* rows, float* to)
+                                TOFRAY_LAMBDA { scatter_column<F>(w.s.scatter, w.item, width, w.s.lens.height, part, from, rows, to); });
   }
 };
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "pipeline/alike.h"
 #include "pipeline/gather.h"
+#include "pipeline/neighbor_similarity.h"
 #include "pipeline/pass/pass.h"
 
-/// Light that bounces, smoothed over neighbours that see the same surface. Direct light never is.          [theory: eq. 7.15]
+/// Light that bounces, smoothed over neighbours that see the same surface. Direct light never is.    [theory: path-smoothing]
 namespace tofray::pipeline {
 
 constexpr int smoothed_radius = 7;  ///< [px]
@@ -14,7 +14,7 @@ constexpr int smoothed_side = 2 * smoothed_radius + 1;
 /// What of a neighbour's light counts as the pixel's own: how much it sees the same, less with its distance in the image. The light of a
 /// neighbour of another reflectivity ρ is as much of another brightness: ρ_p·Σ w·ρ_q·L_q/Σ w·ρ_q².
 template <class F>
-TOFRAY_FN void smoothing_weights(const flow::LightImage& image, const InRow& at, F* weight) {
+TOFRAY_INLINE void smoothing_weights(const flow::LightImage& image, const InRow& at, F* weight) {
   const SurfaceGuide<F> here = guide_near<F>(image, at, 0, 0);
   F squares = F(0.0f);
   for (int i = 0; i < smoothed_side * smoothed_side; ++i) {
@@ -37,7 +37,7 @@ TOFRAY_FN void smoothing_weights(const flow::LightImage& image, const InRow& at,
 
 /// Σ over the neighbours of a plane's values, times their weights or those squared.
 template <class F>
-TOFRAY_FN F weighted_sum(const float* plane, const InRow& at, const F* weight, bool squared) {
+TOFRAY_INLINE F weighted_sum(const float* plane, const InRow& at, const F* weight, bool squared) {
   F sum = F(0.0f);
   for (int dy = -smoothed_radius; dy <= smoothed_radius; ++dy) {
     if (at.y + dy < 0 || at.y + dy >= at.height) continue;
@@ -49,7 +49,7 @@ TOFRAY_FN F weighted_sum(const float* plane, const InRow& at, const F* weight, b
 }
 
 template <class F>
-TOFRAY_FN void smooth_light(const Setup& s, const flow::LightImage& image, const Pixels& p) {
+TOFRAY_INLINE void smooth_light(const Setup& s, const flow::LightImage& image, const Pixels& p) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   const InRow at = in_row(s, p);
   F weight[smoothed_side * smoothed_side];
@@ -70,7 +70,7 @@ struct Smooth {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     smooth_light<F>(w.s, w.job.light, p);
   }
 };

@@ -6,7 +6,7 @@
 
 namespace tofray::pipeline {
 
-/// Direct and indirect light of the image, together.                                                    [theory: eq. 7.1]
+/// Direct and indirect light of the image, together.                                                [theory: light-image]
 struct SumLight {
   static constexpr const char* name = "sum_light";
   static constexpr const char* does = "direct and bounced light together";
@@ -14,7 +14,7 @@ struct SumLight {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     sum_light<F>(w.s, w.job.light, p);
   }
 };

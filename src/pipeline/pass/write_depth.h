@@ -9,7 +9,7 @@
 namespace tofray::pipeline {
 
 /// Four flags at a time, since few pixels fly.
-TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
+TOFRAY_INLINE bool any_flying(const std::uint16_t* flags, int count) {
   std::uint64_t found = 0;
   int i = 0;
   for (; i + 4 <= count; i += 4) {
@@ -22,18 +22,18 @@ TOFRAY_FN bool any_flying(const std::uint16_t* flags, int count) {
 }
 
 /// The flags that a filter leaves: of what is too noisy still, and of a range that is no longer the pixel's own.
-TOFRAY_FN std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at, float range, float noise) {
+TOFRAY_INLINE std::int32_t flags_of_filter(const Setup& s, const Job& job, std::int32_t at, float range, float noise) {
   if (noise > s.decoder.filtered_noise_threshold) return depth::low_signal;
   return range < job.out.range_m[at] || range > job.out.range_m[at] ? depth::filtered : 0;
 }
-TOFRAY_FN std::int32_t filter_flags_at(const Setup& s, const Job& job, std::int32_t at) {
+TOFRAY_INLINE std::int32_t filter_flags_at(const Setup& s, const Job& job, std::int32_t at) {
   return flags_of_filter(s, job, at, job.scratch[at], job.scratch[at + s.lens.width * s.lens.height]);
 }
 
 /// Range of some pixels → z, point, confidence; flying pixels become invalid.
 /// @param item  of_filter: the range that the filter left, and its noise; else that of `out`, which goes where pixels fly
 template <class F>
-TOFRAY_FN void write_depth(const Setup& s, const Job& job, const Pixels& p, std::int32_t item) {
+TOFRAY_INLINE void write_depth(const Setup& s, const Job& job, const Pixels& p, std::int32_t item) {
   if (item != of_filter && !any_flying(job.out.flags + p.index, p.count)) return;
   std::int32_t flags[num::lanes<F>] = {};
   for (int i = 0; i < p.count; ++i) {
@@ -62,7 +62,7 @@ struct WriteDepth {
   static constexpr int most_threads = most_block_threads;
 
   template <class F>
-  TOFRAY_FN static void pixels(const PassWork& w, const Pixels& p) {
+  TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
     write_depth<F>(w.s, w.job, p, w.item);
   }
 };

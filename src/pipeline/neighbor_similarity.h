@@ -3,7 +3,8 @@
 #pragma once
 #include "pipeline/setup.h"
 
-/// Which neighbours of a pixel see the same surface: what comes to them by other surfaces is nearly the same, too.      [theory: eq. 7.14]
+/// Which neighbours of a pixel see the same surface: what comes to them by other surfaces is nearly the same, too.
+///                                                                                                               [theory: like-neighbours]
 namespace tofray::pipeline {
 
 using flow::Pixels;
@@ -17,7 +18,7 @@ struct SurfaceGuide {
 };
 
 template <class F>
-TOFRAY_FN void store_guide(const Setup& s, const flow::LightImage& image, const Pixels& p, const flow::Surface<F>& surface) {
+TOFRAY_INLINE void store_guide(const Setup& s, const flow::LightImage& image, const Pixels& p, const flow::Surface<F>& surface) {
   const std::int64_t pixels = std::int64_t{s.lens.width} * s.lens.height;
   const F values[flow::guide_planes] = {surface.x, surface.y, surface.z, surface.nx, surface.ny, surface.nz, surface.finish.reflectivity};
   for (int i = 0; i < flow::guide_planes; ++i)
@@ -29,13 +30,13 @@ struct InRow {
   Pixels p;
   int x, y, width, height;
 };
-TOFRAY_FN InRow in_row(const Setup& s, const Pixels& p) {
+TOFRAY_INLINE InRow in_row(const Setup& s, const Pixels& p) {
   return {p, p.index % s.lens.width, p.index / s.lens.width, s.lens.width, s.lens.height};
 }
 
 /// A plane's values dx, dy further on. Beyond the ends of the row any will do: is_within knows of them.
 template <class F>
-TOFRAY_FN F load_near(const float* plane, const InRow& at, int dx, int dy) {
+TOFRAY_INLINE F load_near(const float* plane, const InRow& at, int dx, int dy) {
   const int x = at.x + dx;
   const float* const row = plane + std::int64_t{at.y + dy} * at.width;
   if (x >= 0 && x + at.p.count <= at.width) return num::load<F>(row + x, at.p.count);
@@ -44,16 +45,16 @@ TOFRAY_FN F load_near(const float* plane, const InRow& at, int dx, int dy) {
   return num::gather(row, num::select(place > last, last, num::select(place > Int(0), place, Int(0))));
 }
 template <class F>
-TOFRAY_FN num::Mask<F> is_within(const InRow& at, int dx) {
+TOFRAY_INLINE num::Mask<F> is_within(const InRow& at, int dx) {
   using Int = num::Int<F>;
   const Int place = Int(at.x + dx) + num::lane_index<F>();
   return (place > Int(-1)) & (Int(at.width) > place);
 }
 
 template <class F>
-TOFRAY_FN SurfaceGuide<F> guide_near(const flow::LightImage& image, const InRow& at, int dx, int dy) {
+TOFRAY_INLINE SurfaceGuide<F> guide_near(const flow::LightImage& image, const InRow& at, int dx, int dy) {
   const std::int64_t pixels = std::int64_t{at.width} * at.height;
-  const auto load = [&](int i) __attribute__((always_inline)) { return load_near<F>(image.guide + i * pixels, at, dx, dy); };
+  const auto load = [&](int i) TOFRAY_LAMBDA { return load_near<F>(image.guide + i * pixels, at, dx, dy); };
   return {load(0), load(1), load(2), load(3), load(4), load(5), load(6)};
 }
 
@@ -62,7 +63,7 @@ constexpr float most_off_plane = 0.02f;  ///< of the distance to the camera, tha
 
 /// How much a neighbour sees the same: 1 of the same plane, 0 of another surface.
 template <class F>
-TOFRAY_FN F similarity(const SurfaceGuide<F>& here, const SurfaceGuide<F>& there) {
+TOFRAY_INLINE F similarity(const SurfaceGuide<F>& here, const SurfaceGuide<F>& there) {
   const F cosine = num::fma(here.nx, there.nx, num::fma(here.ny, there.ny, here.nz * there.nz));
   const F off = num::fma(here.nx, there.x - here.x, num::fma(here.ny, there.y - here.y, here.nz * (there.z - here.z)));
   const F most = F(most_off_plane * most_off_plane) * flow::square_of(here.x, here.y, here.z);

@@ -49,16 +49,16 @@ struct Input {
 };
 
 /// Where image number `image` of a stack begins.
-TOFRAY_FN std::int64_t place_of(const Setup& s, int image) { return std::int64_t{image} * s.lens.width * s.lens.height; }
+TOFRAY_INLINE std::int64_t place_of(const Setup& s, int image) { return std::int64_t{image} * s.lens.width * s.lens.height; }
 
 /// Of a moment's image number `image`, the pixels p; a null array is `otherwise` everywhere.
 template <class F>
-TOFRAY_FN F given(const float* array, const Setup& s, const Pixels& p, int image, float otherwise) {
+TOFRAY_INLINE F given(const float* array, const Setup& s, const Pixels& p, int image, float otherwise) {
   return array != nullptr ? num::load<F>(array + place_of(s, image) + p.index, p.count) : F(otherwise);
 }
 
 template <class F>
-TOFRAY_FN num::Mask<F> given_mask(const std::uint8_t* array, const Setup& s, const Pixels& p, int image) {
+TOFRAY_INLINE num::Mask<F> given_mask(const std::uint8_t* array, const Setup& s, const Pixels& p, int image) {
   std::int32_t marks[num::lanes<F>] = {};
   if (array != nullptr) {
     const std::uint8_t* from = array + place_of(s, image) + p.index;
@@ -69,11 +69,12 @@ TOFRAY_FN num::Mask<F> given_mask(const std::uint8_t* array, const Setup& s, con
 
 /// The surface that was seen; its normal is turned to the camera.
 template <class F>
-TOFRAY_FN flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in, const Pixels& p, int moment, const flow::Ray<F>& ray) {
+TOFRAY_INLINE flow::Surface<F> given_surface(const Setup& s, const SurfaceArrays& in, const Pixels& p, int moment,
+                                             const flow::Ray<F>& ray) {
   flow::Surface<F> out;
   const F z = given<F>(in.z, s, p, moment, 0.0f);
   out.found = (z > F(0.0f)) & (z <= F(flow::max_distance));
-  const auto value = [&](F a) __attribute__((always_inline)) { return num::select(out.found, a, F(0.0f)); };
+  const auto value = [&](F a) TOFRAY_LAMBDA { return num::select(out.found, a, F(0.0f)); };
   trace::put_at(ray, num::select(out.found, z, F(1.0f)), out);
   const auto lane = num::lane_index<F>();
   const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0)) * num::Int<F>(3);
@@ -94,16 +95,16 @@ struct GivenShadows {
   const Pixels& p;
   int moment;
 
-  TOFRAY_FN const float* sun_direction() const { return s.power.sun_direction; }
+  TOFRAY_INLINE const float* sun_direction() const { return s.power.sun_direction; }
 
-  TOFRAY_FN num::Mask<F> of_light(int l) const { return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l); }
-  TOFRAY_FN num::Mask<F> of_sun() const { return given_mask<F>(in.sun_shadow, s, p, moment); }
+  TOFRAY_INLINE num::Mask<F> of_light(int l) const { return given_mask<F>(in.shadow, s, p, moment * s.scene.lights + l); }
+  TOFRAY_INLINE num::Mask<F> of_sun() const { return given_mask<F>(in.sun_shadow, s, p, moment); }
 };
 
 /// The light that each pixel receives over paths of their own lengths.
 template <class F>
-TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
-                           flow::Light<F>& light, F& power) {
+TOFRAY_INLINE void given_paths(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
+                               flow::Light<F>& light, F& power) {
   for (int i = 0; i < in.paths; ++i) {
     const int l = in.light_of_path[i];
     const F watts = given<F>(in.power, s, p, moment * in.paths + i, 0.0f);
@@ -115,8 +116,8 @@ TOFRAY_FN void given_paths(const Setup& s, const LightArrays& in, const power::W
 
 /// Light of arrays that is summed already: of each light the power, and Σ power·e^{imφ}.
 template <class F>
-TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
-                             flow::Light<F>& light, F& power) {
+TOFRAY_INLINE void given_phasors(const Setup& s, const LightArrays& in, const power::Wanted& wanted, const Pixels& p, int moment,
+                                 flow::Light<F>& light, F& power) {
   const auto lane = num::lane_index<F>();
   const auto at = num::select(lane < num::Int<F>(p.count), lane, num::Int<F>(0));
   for (int l = 0; l < in.lights; ++l) {
@@ -137,8 +138,8 @@ TOFRAY_FN void given_phasors(const Setup& s, const LightArrays& in, const power:
 
 /// Raw frames without noise of the light that has met one surface alone; ambient light is all that there is.
 template <class F>
-TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p,
-                                      const effect::Exposure<F>& exposure) {
+TOFRAY_NOINLINE void store_direct_levels(const Setup& s, float* to, const flow::LightImage& image, const Pixels& p,
+                                         const effect::Exposure<F>& exposure) {
   flow::Light<F> light;
   const bool by_frame = image.times > 1;
   for (int k = 0; k < s.sensor.raw_frames; ++k) {
@@ -157,19 +158,19 @@ TOFRAY_APART void store_direct_levels(const Setup& s, float* to, const flow::Lig
 template <class F>
 class ArraySource {
  public:
-  TOFRAY_FN ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
+  TOFRAY_INLINE ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
 
-  TOFRAY_FN int moments() const { return in_.moments; }
+  TOFRAY_INLINE int moments() const { return in_.moments; }
   static constexpr bool once() { return false; }
-  TOFRAY_FN int packs() const { return 1; }
-  TOFRAY_FN Pixels pixels(int) const { return pixels_; }
-  TOFRAY_FN Pixels ahead(int) const { return {0, 0}; }
-  TOFRAY_FN Pack<F>& pack(int) { return pack_; }
-  static constexpr bool blurs = false, written_out = true;
-  TOFRAY_FN flow::Light<F>& mean(int) { return pack_.light; }
-  TOFRAY_FN void go_to(const Moment&) const {}
+  TOFRAY_INLINE int packs() const { return 1; }
+  TOFRAY_INLINE Pixels pixels(int) const { return pixels_; }
+  TOFRAY_INLINE Pixels ahead(int) const { return {0, 0}; }
+  TOFRAY_INLINE PackState<F>& pack(int) { return pack_; }
+  static constexpr bool blurs = false, inlined = true;
+  TOFRAY_INLINE flow::Light<F>& mean(int) { return pack_.light; }
+  TOFRAY_INLINE void go_to(const Moment&) const {}
 
-  TOFRAY_FN bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, Pack<F>& pack) const {
+  TOFRAY_INLINE bool find_light(const Moment& now, int, const Pixels& p, const flow::Ray<F>& ray, F vignetting, PackState<F>& pack) const {
     if (in_.from_image != 0) {
       if (s_.last_stage >= Stage::raw) load_light(s_, job_.light, p, now.index, pack.light);
       if (now.truth) {
@@ -202,8 +203,7 @@ class ArraySource {
       pack.light.ambient_rate = given<F>(in_.light.ambient_rate, s_, p, now.index, 0.0f);
     }
     if (now.truth) {
-      store_truth(
-          job_.out, p, surface, radiometry, []() __attribute__((always_inline)) { return num::Int<F>(-1); });
+      store_truth(job_.out, p, surface, radiometry, []() TOFRAY_LAMBDA { return num::Int<F>(-1); });
       store_seen(job_.out, p, nothing_known<F>());
       store_no_phase_flow<F>(s_, job_.out.gt_phase_flow_px, p);
       if (s_.last_stage >= Stage::power) store(job_.out.gt_ambient_e_per_s, p, pack.light.ambient_rate);
@@ -216,12 +216,12 @@ class ArraySource {
   const Job& job_;
   const Input& in_;
   Pixels pixels_;
-  Pack<F> pack_;
+  PackState<F> pack_;
 };
 
 /// Stage 4.
 template <class F>
-TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in, const Pixels& p) {
+TOFRAY_INLINE void decode_pixels(const Setup& s, const Job& job, const Recording& in, const Pixels& p) {
   F difference[flow::max_raw_frames];
   num::Mask<F> clipped = F(1.0f) < F(0.0f);
   const camera::SensorView& sensor = s.sensor;
@@ -233,7 +233,7 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
     if (in.tap_a != nullptr) {
       const F a = num::load<F>(in.tap_a + at, p.count), b = num::load<F>(in.tap_b + at, p.count);
       const auto charges = (num::abs(a) <= F(flow::max_charge)) & (num::abs(b) <= F(flow::max_charge));
-      const effect::Means<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
+      const effect::TapPair<F> charge{num::select(charges, a, F(0.0f)), num::select(charges, b, F(0.0f))};
       level = effect::read_out(sensor, charge, offset).level;
       difference[k] = effect::held_to_codes(effect::reach_of_codes(sensor, offset), charge.a - charge.b);
       over = (!charges) | (num::max(charge.a, charge.b) >= F(sensor.full_read));
@@ -252,13 +252,13 @@ TOFRAY_FN void decode_pixels(const Setup& s, const Job& job, const Recording& in
 }
 
 template <class F>
-TOFRAY_FN void enter(const Setup& s, const Job& job, const Input& in, const Pixels& p) {
+TOFRAY_INLINE void enter(const Setup& s, const Job& job, const Input& in, const Pixels& p) {
   if (in.entry == Stage::depth) {
     decode_pixels<F>(s, job, in.recording, p);
     return;
   }
-  ArraySource<F> walk(s, job, in, p);
-  run_pipeline<F>(s, job, walk);
+  ArraySource<F> source(s, job, in, p);
+  run_pipeline<F>(s, job, source);
 }
 
 }  // namespace tofray::pipeline

@@ -19,12 +19,12 @@ struct Metered {
 };
 
 /// Integration times that follow the light: those of frame i come of the raw frames of frame i − 1, from frame 0 on.
-/// [theory: eq. 4.27, 4.28]
-class Exposure {
+/// [theory: brightness, auto-exposure]
+class ExposureControl {
  public:
   /// @param camera  as it is read out
   /// @throws Error (bad_input) where times follow the light, and raw frames are not computed
-  Exposure(const Camera& camera, Stage last);
+  ExposureControl(const Camera& camera, Stage last);
 
   /// Whether times follow the light.
   [[nodiscard]] bool on() const { return law_.speed > 0; }
@@ -44,7 +44,7 @@ class Exposure {
   std::vector<double> longest_;  // [frame] longest lit exposure of each frame
 };
 
-/// Bright pixels of raw frames: how much of the valid codes they use, 1 and more where they saturate.               [theory: eq. 4.27]
+/// Bright pixels of raw frames: how much of the valid codes they use, 1 and more where they saturate.             [theory: brightness]
 /// @param bright  quantile
 double brightness(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels, double bright);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
-#include "simulator/exposure.h"
+#include "simulator/exposure_control.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr float saturates = 1e3f;  // stands for all that lies beyond the valid 
 
 }  // namespace
 
-Exposure::Exposure(const Camera& camera, Stage last) : law_(camera.auto_exposure), mode_(camera.mode.sequence) {
+ExposureControl::ExposureControl(const Camera& camera, Stage last) : law_(camera.auto_exposure), mode_(camera.mode.sequence) {
   if (!on()) return;
   if (last < Stage::raw)
     throw Error(ErrorKind::bad_input,
@@ -34,21 +34,21 @@ Exposure::Exposure(const Camera& camera, Stage last) : law_(camera.auto_exposure
   longest_.push_back(std::clamp(of_mode_, law_.shortest_s, law_.longest_s));
 }
 
-void Exposure::check(std::uint64_t index) const {
+void ExposureControl::check(std::uint64_t index) const {
   if (!on() || index < most_frames) return;
   throw Error(ErrorKind::limit, "error: exposures that follow the light begin with frame 0, and frame " + std::to_string(index) +
                                     " is too far from it\n  at most frame " + std::to_string(most_frames - 1) +
                                     "; begin earlier, or set auto_exposure.speed to 0");
 }
 
-std::vector<double> Exposure::times_of(std::uint64_t index) const {
+std::vector<double> ExposureControl::times_of(std::uint64_t index) const {
   const double scale = longest_[static_cast<std::size_t>(index)] / of_mode_;
   std::vector<double> out;
   for (const RawFrame& raw : mode_) out.push_back(raw.lit ? scale * raw.integration_time_s : raw.integration_time_s);
   return out;
 }
 
-void Exposure::follow(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels) {
+void ExposureControl::follow(const camera::SensorView& sensor, const flow::FrameView& frame, const Metered& pixels) {
   const double bright = brightness(sensor, frame, pixels, law_.bright);
   const double step = std::clamp(law_.aim / std::max(bright, 1e-9), 1 / most_change, most_change);
   longest_.push_back(std::clamp(longest_.back() * num::setup::pow(step, law_.speed), law_.shortest_s, law_.longest_s));
