@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tofray/camera.h"
+#include "tofray/flags.h"
 #include "tofray/frame.h"
 #include "tofray/scene.h"
 
@@ -84,44 +85,40 @@ SceneReport scene_report(const Scene& scene, const Camera& camera);
 /// @throws Error (bad_input) where they are not there or not of the same size, or name objects that the scene does not have
 SceneReport scene_report(const Scene& scene, const Camera& camera, const Truth& truth);
 
-/// Why a pixel has no depth. Where there is truth, low_signal and no_return are told apart by it: no_surface, beyond_reach, dark.
+/// Why a pixel has no depth: what truth tells of it, or else the reason that its flags say (tofray/flags.h). With truth, low_signal and
+/// no_return are no_surface, beyond_reach or dark.
 enum class NoDepth {
-  saturated,
-  no_surface,                ///< its ray hits nothing
-  beyond_reach,              ///< the surface is farther than the ambiguity range
-  dark,                      ///< it sees a surface within reach, and too little light comes back
-  low_signal,                ///< too little light; what is there is unknown
-  no_return,                 ///< no light; what is there is unknown
-  wrong_cycle,               ///< flying by flags, but most neighbours are off by multiples of a modulation frequency's ambiguity range
-  flying_pixel,              ///< light of near and far mixed
-  outside_lens,              ///< the lens model has no ray there
-  inconsistent_phases,       ///< rejected for inconsistent phases
-  inconsistent_frequencies,  ///< rejected for inconsistent frequencies
+  no_surface,    ///< its ray hits nothing
+  beyond_reach,  ///< the surface is farther than the ambiguity range
+  dark,          ///< it sees a surface within reach, and too little light comes back
+  wrong_cycle,   ///< flying by flags, but most neighbours are off by multiples of a modulation frequency's ambiguity range
+#define TOFRAY_REASON(name, ...) name,
+  TOFRAY_REASONS(TOFRAY_REASON)  // saturated, …
+#undef TOFRAY_REASON
 };
+#define TOFRAY_ONE(...) +1
 /// How many reasons there are.
-inline constexpr std::size_t no_depth_count = 11;
+inline constexpr std::size_t no_depth_count = 1 + static_cast<std::size_t>(NoDepth::wrong_cycle) TOFRAY_REASONS(TOFRAY_ONE);
+#undef TOFRAY_ONE
 /// What messages call it: "no surface", "wrong cycle".
 const char* no_depth_name(NoDepth reason);
 
-/// How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
+/// How many pixels have no depth, and why: each counts once, under the member of its NoDepth. What has low signal or no return
+/// is counted as such where there is no truth.
 struct InvalidPixels {
   std::int64_t pixels = 0;                ///< pixels of the image
   std::int64_t valid = 0;                 ///< pixels that have a depth
   std::int64_t wrapped = 0;               ///< valid ones whose surface is beyond the ambiguity range: their depth is too small
   std::int64_t valid_on_wrong_cycle = 0;  ///< valid ones whose range is off by more than half a cycle of the highest modulation frequency
-  std::int64_t saturated = 0;             ///< a well or the ADC is full
   std::int64_t no_surface = 0;            ///< the ray hits nothing
   std::int64_t beyond_reach = 0;          ///< the surface is farther than the ambiguity range
   std::int64_t dark = 0;                  ///< there is a surface within reach, and too little light comes back
-  std::int64_t low_signal = 0;            ///< too little light; without truth, what is there is unknown
-  std::int64_t no_return = 0;             ///< no light; without truth, what is there is unknown
   std::int64_t wrong_cycle = 0;           ///< most neighbours are off by whole cycles of a modulation frequency
-  std::int64_t flying_pixel = 0;          ///< light of near and far mixed
-  std::int64_t outside_lens = 0;          ///< the lens model has no ray there
-  std::int64_t inconsistent_phases = 0;   ///< rejected for inconsistent phases
-  std::int64_t inconsistent_frequencies = 0;  ///< rejected for inconsistent frequencies
-  double ambiguity_range_m = 0;               ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
-  std::vector<double> ranges_m;               ///< ambiguity range of each modulation frequency alone
+#define TOFRAY_COUNT(name, ...) std::int64_t name = 0;
+  TOFRAY_REASONS(TOFRAY_COUNT)  // std::int64_t saturated = 0; …
+#undef TOFRAY_COUNT
+  double ambiguity_range_m = 0;  ///< ambiguity range of the camera's mode; 0 where no raw frame is lit
+  std::vector<double> ranges_m;  ///< ambiguity range of each modulation frequency alone
 
   /// Number of pixels of one reason.
   [[nodiscard]] std::int64_t count(NoDepth reason) const;

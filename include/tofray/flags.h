@@ -4,7 +4,8 @@
 #include <cstdint>
 
 /// The flags of a pixel's depth: one row each, and no other list of them. `tofray::flag_…`, the kernels' bits, names in messages and
-/// legends, colours and letters of pictures and viewer, advice, `tofray.flags` and docs/reference/arrays.md come from these rows.
+/// legends, colours and letters of pictures and viewer, advice, counts of invalid pixels (tofray/analysis.h), `tofray.flags` and
+/// docs/reference/arrays.md come from these rows.
 ///
 /// A row:
 ///
@@ -55,5 +56,10 @@ enum Flag : std::uint16_t {
 #define TOFRAY_INVALID(name, bit, invalid, ...) +(bit) * (invalid)
 inline constexpr std::uint16_t flags_invalid = 0 TOFRAY_FLAGS(TOFRAY_INVALID);
 #undef TOFRAY_INVALID
+
+/// Bits that say why a pixel has no depth, or warn of that. Those that say something else are not among them.
+#define TOFRAY_BIT(name, bit, ...) | (bit)
+inline constexpr std::uint16_t flags_reasons = 0 TOFRAY_REASONS(TOFRAY_BIT);
+#undef TOFRAY_BIT
 
 }  // namespace tofray

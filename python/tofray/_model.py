@@ -2855,7 +2855,8 @@ class SceneReport(Record):
 
 
 class InvalidPixels(Record):
-    """How many pixels have no depth, and why: each counts once, under the member of its NoDepth.
+    """How many pixels have no depth, and why: each counts once, under the member of its NoDepth. What
+    has low signal or no return is counted as such where there is no truth.
 
     Attributes
     ----------
@@ -2867,49 +2868,49 @@ class InvalidPixels(Record):
         Valid ones whose surface is beyond the ambiguity range: their depth is too small.
     valid_on_wrong_cycle : int
         Valid ones whose range is off by more than half a cycle of the highest modulation frequency.
-    saturated : int
-        A well or the ADC is full.
     no_surface : int
         The ray hits nothing.
     beyond_reach : int
         The surface is farther than the ambiguity range.
     dark : int
         There is a surface within reach, and too little light comes back.
-    low_signal : int
-        Too little light; without truth, what is there is unknown.
-    no_return : int
-        No light; without truth, what is there is unknown.
     wrong_cycle : int
         Most neighbours are off by whole cycles of a modulation frequency.
-    flying_pixel : int
-        Light of near and far mixed.
     outside_lens : int
         The lens model has no ray there.
+    saturated : int
+        A well or the ADC is full.
+    no_return : int
+        No light came back.
+    low_signal : int
+        The noise is above camera.decoding.noise_threshold.
+    flying_pixel : int
+        Its range lies between those of its neighbours.
     inconsistent_phases : int
-        Rejected for inconsistent phases.
+        The raw frames of one modulation frequency do not fit together.
     inconsistent_frequencies : int
-        Rejected for inconsistent frequencies.
+        The ranges of the modulation frequencies do not fit together.
     ambiguity_range_m : float, m
         Ambiguity range of the camera's mode; 0 where no raw frame is lit.
     ranges_m : list[float], m
         Ambiguity range of each modulation frequency alone.
     """
-    __slots__ = ("pixels", "valid", "wrapped", "valid_on_wrong_cycle", "saturated", "no_surface", "beyond_reach", "dark", "low_signal",
-                 "no_return", "wrong_cycle", "flying_pixel", "outside_lens", "inconsistent_phases", "inconsistent_frequencies",
-                 "ambiguity_range_m", "ranges_m")
+    __slots__ = ("pixels", "valid", "wrapped", "valid_on_wrong_cycle", "no_surface", "beyond_reach", "dark", "wrong_cycle",
+                 "outside_lens", "saturated", "no_return", "low_signal", "flying_pixel", "inconsistent_phases",
+                 "inconsistent_frequencies", "ambiguity_range_m", "ranges_m")
     pixels: int
     valid: int
     wrapped: int
     valid_on_wrong_cycle: int
-    saturated: int
     no_surface: int
     beyond_reach: int
     dark: int
-    low_signal: int
-    no_return: int
     wrong_cycle: int
-    flying_pixel: int
     outside_lens: int
+    saturated: int
+    no_return: int
+    low_signal: int
+    flying_pixel: int
     inconsistent_phases: int
     inconsistent_frequencies: int
     ambiguity_range_m: float
@@ -2922,15 +2923,15 @@ class InvalidPixels(Record):
         valid: int = 0,
         wrapped: int = 0,
         valid_on_wrong_cycle: int = 0,
-        saturated: int = 0,
         no_surface: int = 0,
         beyond_reach: int = 0,
         dark: int = 0,
-        low_signal: int = 0,
-        no_return: int = 0,
         wrong_cycle: int = 0,
-        flying_pixel: int = 0,
         outside_lens: int = 0,
+        saturated: int = 0,
+        no_return: int = 0,
+        low_signal: int = 0,
+        flying_pixel: int = 0,
         inconsistent_phases: int = 0,
         inconsistent_frequencies: int = 0,
         ambiguity_range_m: float = 0.0,
@@ -2940,15 +2941,15 @@ class InvalidPixels(Record):
         self.valid = valid
         self.wrapped = wrapped
         self.valid_on_wrong_cycle = valid_on_wrong_cycle
-        self.saturated = saturated
         self.no_surface = no_surface
         self.beyond_reach = beyond_reach
         self.dark = dark
-        self.low_signal = low_signal
-        self.no_return = no_return
         self.wrong_cycle = wrong_cycle
-        self.flying_pixel = flying_pixel
         self.outside_lens = outside_lens
+        self.saturated = saturated
+        self.no_return = no_return
+        self.low_signal = low_signal
+        self.flying_pixel = flying_pixel
         self.inconsistent_phases = inconsistent_phases
         self.inconsistent_frequencies = inconsistent_frequencies
         self.ambiguity_range_m = ambiguity_range_m

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The tofray authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes python/tofray/_model.py: the public structs as classes of Python, with types and docstrings.
+"""Writes python/tofray/_model.py: the public structs as classes of Python, with types and docstrings; _model_names.py: their names, which
+the package offers; and _arrays.py: the arrays of a frame.
 
 Names, types and values come from the compiled module, which has them from the compiler; what a member is, its unit and its range come from
 its row in src/model (tofray_rows, which the build puts beside the package). Classes, and members that have no row (results, and what readers write), are said by the comments of include/tofray.
@@ -47,6 +48,12 @@ def declared(code: str) -> list[str]:
     return [words[-1], *(other.partition("=")[0].strip() for other in others)] if len(words) > 1 else []
 
 
+def reasons() -> dict[str, str]:
+    """What has happened where a flag is the reason, by its name: rows of flags.h, which are members where structs count them."""
+    rows = (ROOT / "include/tofray/flags.h").read_text(encoding="utf-8").partition("#define TOFRAY_REASONS")[2].partition("#define")[0]
+    return dict(re.findall(r"row\((\w+),[^\"]*\"[^\"]*\", *\"([^\"]*)\"", rows))
+
+
 def comments() -> dict[str, dict[str, str]]:
     """The comment of each struct ('' is its key) and of each of its members."""
     out: dict[str, dict[str, str]] = {}
@@ -79,6 +86,8 @@ def comments() -> dict[str, dict[str, str]]:
                 for name in members:
                     out[struct][name] += " " + goes_on[1]
                 continue
+            if struct and line.strip().startswith("TOFRAY_REASONS("):
+                out[struct].update(reasons())
             code, _, comment = line.partition("//")
             names = declared(code) if struct else []
             if names:
@@ -242,6 +251,18 @@ def model_text() -> str:
     return "".join(parts)
 
 
+def names_text() -> str:
+    from tofray import _native
+
+    names = ", ".join(f'"{name}"' for name in sorted(name for name, _ in _native.structs()))
+    return '''# SPDX-FileCopyrightText: 2026 The tofray authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names of the classes of _model.py, for who does not read all of it. Written by python/tools/make_model.py; do not edit."""
+
+MODEL = (
+''' + textwrap.fill(names, 136, initial_indent="    ", subsequent_indent="    ") + ",\n)\n"
+
+
 def arrays_text() -> str:
     from tofray import _native
 
@@ -280,7 +301,7 @@ if TYPE_CHECKING:
 
 def main() -> None:
     folder = ROOT / "python/tofray"
-    for file, text in ((folder / "_model.py", model_text()), (folder / "_arrays.py", arrays_text())):
+    for file, text in ((folder / "_model.py", model_text()), (folder / "_model_names.py", names_text()), (folder / "_arrays.py", arrays_text())):
         if "--check" in sys.argv:
             if file.read_text(encoding="utf-8") != text:
                 sys.exit(f"{file} is not what python/tools/make_model.py writes")

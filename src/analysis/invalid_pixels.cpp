@@ -93,33 +93,19 @@ bool is_right(double error, float noise, const std::vector<double>& ranges) {
   return std::isfinite(error) && !is_whole_cycles(error, std::isfinite(noise) ? static_cast<double>(noise) : 0, ranges);
 }
 
-constexpr std::int64_t InvalidPixels::*members[no_depth_count] = {&InvalidPixels::saturated,
-                                                                  &InvalidPixels::no_surface,
-                                                                  &InvalidPixels::beyond_reach,
-                                                                  &InvalidPixels::dark,
-                                                                  &InvalidPixels::low_signal,
-                                                                  &InvalidPixels::no_return,
-                                                                  &InvalidPixels::wrong_cycle,
-                                                                  &InvalidPixels::flying_pixel,
-                                                                  &InvalidPixels::outside_lens,
-                                                                  &InvalidPixels::inconsistent_phases,
-                                                                  &InvalidPixels::inconsistent_frequencies};
+#define TOFRAY_MEMBER(name, ...) &InvalidPixels::name,
+constexpr std::int64_t InvalidPixels::*members[no_depth_count] = {&InvalidPixels::no_surface, &InvalidPixels::beyond_reach,
+                                                                  &InvalidPixels::dark, &InvalidPixels::wrong_cycle,
+                                                                  TOFRAY_REASONS(TOFRAY_MEMBER)};
+#undef TOFRAY_MEMBER
 std::int64_t& count_of(InvalidPixels& of, NoDepth reason) { return of.*members[static_cast<std::size_t>(reason)]; }
 
 }  // namespace
 
 const char* no_depth_name(NoDepth reason) {
-  static constexpr const char* names[no_depth_count] = {"saturated",
-                                                        "no surface",
-                                                        "beyond reach",
-                                                        "dark",
-                                                        "low signal",
-                                                        "no return",
-                                                        "wrong cycle",
-                                                        "flying pixel",
-                                                        "outside the lens model",
-                                                        "inconsistent phases",
-                                                        "inconsistent frequencies"};
+#define TOFRAY_WORDS(name, bit, invalid, letter, dark, light, words, ...) words,
+  static constexpr const char* names[no_depth_count] = {"no surface", "beyond reach", "dark", "wrong cycle", TOFRAY_REASONS(TOFRAY_WORDS)};
+#undef TOFRAY_WORDS
   return names[static_cast<std::size_t>(reason)];
 }
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include <iterator>
+#include <string>
 #include <variant>
 
+#include "model/tables.h"
 #include "scene/motion.h"
 #include "shape/list.h"
 
@@ -13,11 +14,7 @@ namespace tofray::analysis {
 using scene::Vec;
 
 /// What files call it.
-inline const char* kind_of(const Object& object) {
-  static constexpr const char* kinds[] = {"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"};
-  static_assert(std::size(kinds) == std::variant_size_v<decltype(Object::shape)>);
-  return kinds[object.shape.index()];
-}
+inline const std::string& kind_of(const Object& object) { return model::names_of_shapes()[object.shape.index()]; }
 
 /// How an object stands in the world at a time: what a placement puts at P is then at turn·P + shift.
 struct Stand {

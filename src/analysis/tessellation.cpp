@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "analysis/bodies.h"
@@ -22,131 +22,82 @@ constexpr std::size_t box_triangles = 12;
 
 using Corners = std::vector<std::array<float, 9>>;
 
-void add(Corners& to, const Vec& a, const Vec& b, const Vec& c) {
-  std::array<float, 9> one{};
-  const Vec all[] = {a, b, c};
-  for (std::size_t i = 0; i < 9; ++i) one[i] = static_cast<float>(all[i / 3][static_cast<int>(i % 3)]);
-  to.push_back(one);
-}
+/// What a shape says its triangles to (shape/list.h).
+class Triangles {
+ public:
+  Corners all;
+  double patch_m;  ///< half the side of the square that stands for what has no end
 
-void add_quad(Corners& to, const Vec& a, const Vec& b, const Vec& c, const Vec& d) { add(to, a, b, c), add(to, a, c, d); }
+  Triangles(double time_s, double patch) : patch_m(patch), time_s_(time_s) {}
 
-/// A box from `low` to `high`, seen from outside.
-void add_box(Corners& to, const Vec& low, const Vec& high) {
-  const auto at = [&](int x, int y, int z) { return Vec{x != 0 ? high.x : low.x, y != 0 ? high.y : low.y, z != 0 ? high.z : low.z}; };
-  add_quad(to, at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
-  add_quad(to, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
-  add_quad(to, at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
-  add_quad(to, at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
-  add_quad(to, at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
-  add_quad(to, at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
-}
+  void triangle(const Vec& a, const Vec& b, const Vec& c) {
+    std::array<float, 9> one{};
+    const Vec corners[] = {a, b, c};
+    for (std::size_t i = 0; i < 9; ++i) one[i] = static_cast<float>(corners[i / 3][static_cast<int>(i % 3)]);
+    all.push_back(one);
+  }
+  void quad(const Vec& a, const Vec& b, const Vec& c, const Vec& d) { triangle(a, b, c), triangle(a, c, d); }
 
-/// A corner of an outline that is turned about an axis: how far from it, and how far along.
-struct Outline {
-  double radius, along;
-};
+  /// A box from `low` to `high`, seen from outside.
+  void box(const Vec& low, const Vec& high) {
+    const auto at = [&](int x, int y, int z) { return Vec{x != 0 ? high.x : low.x, y != 0 ? high.y : low.y, z != 0 ? high.z : low.z}; };
+    quad(at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
+    quad(at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
+    quad(at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
+    quad(at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), at(1, 1, 0));
+    quad(at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), at(0, 1, 0));
+    quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1));
+  }
 
-/// What an outline makes when it is turned about an axis, the first corner lowest.
-void add_turned(Corners& to, const std::vector<Outline>& outline, const Vec& along) {
-  const Vec axis = shape::normalized(along), u = shape::way_across({0, 0, 0}, axis), v = shape::cross(axis, u);
-  const auto at = [&](const Outline& one, int side) {
-    const double angle = base::two_pi * (side % sides) / sides;
-    return one.radius * (std::cos(angle) * u + std::sin(angle) * v) + one.along * axis;
-  };
-  for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
-    const Outline &low = outline[i], &high = outline[i + 1];
-    for (int side = 0; side < sides; ++side) {
-      if (low.radius > 0) add(to, at(low, side), at(low, side + 1), at(high, side));
-      if (high.radius > 0) add(to, at(low, side + 1), at(high, side + 1), at(high, side));
+  /// The next corner of an outline: how far from the axis, and how far along it.
+  void corner(double radius, double along) { outline_.push_back({radius, along}); }
+  /// A quarter or half circle as the outline's next part. @param from, to  in quarters of a turn from the axis's foot
+  void arc(double radius, double middle, int from, int to) {
+    const int steps = sides / 4 * (to - from);
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = base::two_pi * (static_cast<double>(from) / 4 + static_cast<double>(i) / sides);
+      const bool on_axis = (i == 0 && from == 0) || (i == steps && to == 2);
+      corner(on_axis ? 0 : radius * std::sin(angle), middle - radius * std::cos(angle));
     }
   }
-}
-
-/// A quarter or half circle as part of an outline. @param from, to  in quarters of a turn from the axis's foot
-void add_arc(std::vector<Outline>& outline, double radius, double middle, int from, int to) {
-  const int steps = sides / 4 * (to - from);
-  for (int i = 0; i <= steps; ++i) {
-    const double angle = base::two_pi * (static_cast<double>(from) / 4 + static_cast<double>(i) / sides);
-    const bool on_axis = (i == 0 && from == 0) || (i == steps && to == 2);
-    outline.push_back({on_axis ? 0 : radius * std::sin(angle), middle - radius * std::cos(angle)});
+  /// What the outline makes when it is turned about an axis, its first corner lowest. The next outline begins anew.
+  void turn_about(const Vec& along) {
+    const Vec axis = shape::normalized(along), u = shape::way_across({0, 0, 0}, axis), v = shape::cross(axis, u);
+    const auto at = [&](const Corner& one, int side) {
+      const double angle = base::two_pi * (side % sides) / sides;
+      return one.radius * (std::cos(angle) * u + std::sin(angle) * v) + one.along * axis;
+    };
+    for (std::size_t i = 0; i + 1 < outline_.size(); ++i) {
+      const Corner &low = outline_[i], &high = outline_[i + 1];
+      for (int side = 0; side < sides; ++side) {
+        if (low.radius > 0) triangle(at(low, side), at(low, side + 1), at(high, side));
+        if (high.radius > 0) triangle(at(low, side + 1), at(high, side + 1), at(high, side));
+      }
+    }
+    outline_.clear();
   }
-}
 
-Vec vec(const Vec3& a) { return scene::vec(a); }
-
-Corners corners_of(const Plane& plane, double patch_m) {
-  const Vec normal = shape::normalized(vec(plane.normal)), u = patch_m * shape::way_across({0, 0, 0}, normal);
-  const Vec v = shape::cross(normal, u), origin{0, 0, 0};
-  Corners out;
-  add_quad(out, origin - u - v, u - v, u + v, v - u);
-  return out;
-}
-Corners corners_of(const Sphere& sphere, double /*patch_m*/) {
-  std::vector<Outline> outline;
-  add_arc(outline, sphere.radius, 0, 0, 2);
-  Corners out;
-  add_turned(out, outline, {0, 1, 0});
-  return out;
-}
-Corners corners_of(const Box& box, double /*patch_m*/) {
-  const Vec half = 0.5 * (vec(box.max) - vec(box.min));
-  Corners out;
-  add_box(out, -1 * half, half);
-  return out;
-}
-Corners corners_of(const Triangle& triangle, double /*patch_m*/) {
-  const Vec center = shape::Triangle::center_of(triangle);
-  Corners out;
-  add(out, vec(triangle.vertices[0]) - center, vec(triangle.vertices[1]) - center, vec(triangle.vertices[2]) - center);
-  return out;
-}
-Corners corners_of(const Cylinder& cylinder, double /*patch_m*/) {
-  const double half = 0.5 * cylinder.height, radius = cylinder.radius;
-  Corners out;
-  add_turned(out, {{0, -half}, {radius, -half}, {radius, half}, {0, half}}, vec(cylinder.axis));
-  return out;
-}
-Corners corners_of(const Rectangle& rectangle, double /*patch_m*/) {
-  const double x = 0.5 * rectangle.size[0], y = 0.5 * rectangle.size[1];
-  Corners out;
-  add_quad(out, {-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0});
-  return out;
-}
-Corners corners_of(const Disk& disk, double /*patch_m*/) {
-  Corners out;
-  add_turned(out, {{disk.radius, 0}, {0, 0}}, vec(disk.normal));
-  return out;
-}
-Corners corners_of(const Capsule& capsule, double /*patch_m*/) {
-  const Vec along = vec(capsule.end) - vec(capsule.start);
-  const double half = 0.5 * shape::length(along);
-  std::vector<Outline> outline;
-  add_arc(outline, capsule.radius, -half, 0, 1), add_arc(outline, capsule.radius, half, 1, 2);
-  Corners out;
-  add_turned(out, outline, along);
-  return out;
-}
-Corners corners_of(const Cone& cone, double /*patch_m*/) {
-  Corners out;
-  add_turned(out, {{0, 0}, {cone.radius, 0}, {0, cone.height}}, vec(cone.axis));
-  return out;
-}
-
-Corners corners_of(const Mesh& mesh, double time_s) {
-  Corners out;
-  if (mesh.triangles == nullptr) return out;
-  std::vector<std::array<float, 3>> moved, normals;
-  if (mesh.motion != nullptr) mesh.motion->at(time_s, moved, normals);
-  const auto& vertices = mesh.motion != nullptr ? moved : mesh.triangles->vertices;
-  out.reserve(mesh.triangles->triangles.size());
-  for (const auto& triangle : mesh.triangles->triangles) {
-    std::array<float, 9> one{};
-    for (std::size_t i = 0; i < 9; ++i) one[i] = vertices[static_cast<std::size_t>(triangle[i / 3])][i % 3];
-    out.push_back(one);
+  /// A mesh as it is at the time.
+  void mesh(const Mesh& said) {
+    if (said.triangles == nullptr) return;
+    std::vector<std::array<float, 3>> moved, normals;
+    if (said.motion != nullptr) said.motion->at(time_s_, moved, normals);
+    const auto& vertices = said.motion != nullptr ? moved : said.triangles->vertices;
+    all.reserve(said.triangles->triangles.size());
+    for (const auto& corners : said.triangles->triangles) {
+      std::array<float, 9> one{};
+      for (std::size_t i = 0; i < 9; ++i) one[i] = vertices[static_cast<std::size_t>(corners[i / 3])][i % 3];
+      all.push_back(one);
+    }
   }
-  return out;
-}
+
+ private:
+  struct Corner {
+    double radius, along;
+  };
+  std::vector<Corner> outline_;
+  double time_s_;
+};
 
 /// The box that holds triangles.
 Corners box_of(const Corners& corners) {
@@ -156,9 +107,9 @@ Corners box_of(const Corners& corners) {
       const auto k = static_cast<int>(i % 3);
       low[k] = std::min(low[k], static_cast<double>(one[i])), high[k] = std::max(high[k], static_cast<double>(one[i]));
     }
-  Corners out;
-  if (!corners.empty()) add_box(out, low, high);
-  return out;
+  Triangles out(0, 0);
+  if (!corners.empty()) out.box(low, high);
+  return out.all;
 }
 
 /// Half the side of the squares that planes become: the power of two beyond all else, so that it is the same while things move a little.
@@ -212,14 +163,10 @@ ObjectPose pose_of(const Object& object, double time_s) {
 }
 
 std::vector<std::array<float, 9>> object_triangles(const Object& object, double time_s, double patch_m) {
-  return std::visit(
-      [&](const auto& said) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(said)>, Mesh>)
-          return corners_of(said, time_s);
-        else
-          return corners_of(said, patch_m);
-      },
-      object.shape);
+  Triangles out(time_s, patch_m);
+  with_shape(shape::Shapes{}, object.shape,
+             [&]<class Shape, class Said>(shape::List<Shape>, const Said& said) { Shape::tessellate(said, out); });
+  return std::move(out.all);
 }
 
 SceneTriangles scene_triangles(const Scene& scene, double time_s, std::size_t most) {

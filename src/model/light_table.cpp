@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The tofray authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "base/constants.h"
 #include "base/limits.h"
 #include "model/rules.h"
 #include "model/tables.h"
 
-/// What a camera profile may say of the camera's lights.
+/// What a camera profile may say of the camera's lights, and how many of them there may be.
 namespace tofray::model {
 
 namespace {
@@ -142,6 +144,42 @@ const Table& table_of<Illumination>() {
       record<&Illumination::pattern>("pattern", "how the light is spread over directions").required(),
       record<&Illumination::waveform>("waveform", "how the light is modulated").required());
   return rows;
+}
+
+namespace {
+/// Point sources that stand for a light.
+long long sources_of(const Illumination& light) {
+  return static_cast<long long>(light.ring_leds) * (light.area.kind == Area::Kind::none ? 1 : light.area.points);
+}
+
+/// Samples of a light's pattern, as many times as it is kept.
+long long samples_of(const Illumination& light) {
+  const Pattern& pattern = light.pattern;
+  const bool table = pattern.kind == Pattern::Kind::table || pattern.kind == Pattern::Kind::flat_top;
+  return table ? sources_of(light) * pattern.columns * pattern.rows : 0;
+}
+
+/// Complains of the light that counts most where all of them count more than the limit.
+void add_up_to_the_limit(const Camera& camera, long long (*count)(const Illumination&), const base::Limit& limit, const std::string& what,
+                         const std::string& way_out, Complaints& complaints) {
+  const auto& lights = camera.illumination;
+  long long sum = 0;
+  for (const Illumination& light : lights) sum += count(light);
+  if (sum <= limit.value) return;
+  const Illumination& most =
+      *std::max_element(lights.begin(), lights.end(), [&](const Illumination& a, const Illumination& b) { return count(a) < count(b); });
+  const std::string more = "got " + std::to_string(sum) + ", at most " + std::to_string(limit.value) +
+                           " (`tofray --limits`); each LED of a ring and each point of an area is a source; " + way_out;
+  if (most.area.kind != Area::Kind::none) return complaints.add(most.area, &most.area.points, what, more, ErrorKind::limit);
+  complaints.add(most, &most.ring_leds, what, more, ErrorKind::limit);
+}
+}  // namespace
+
+void lights_are_within_the_limits(const Camera& camera, Complaints& complaints) {
+  add_up_to_the_limit(camera, sources_of, base::limit::lights, "the camera has too many light sources", "take fewer points or LEDs",
+                      complaints);
+  add_up_to_the_limit(camera, samples_of, base::limit::light_samples, "the camera's light sources have too many samples of their patterns",
+                      "take fewer of them or coarser tables", complaints);
 }
 
 }  // namespace tofray::model

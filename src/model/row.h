@@ -46,6 +46,7 @@ struct Row {
   bool meta_if_set = false;              ///< `meta` has it only where it is not as in a fresh struct
   std::vector<std::string> in_place_of;  ///< members that count for nothing where this one is given, and that `meta` then leaves out
   bool direction = false;                ///< has to have a length
+  bool scales_lengths = false;           ///< all lengths of the struct are multiplied by it
   std::string file;                      ///< the numbers may be in a text file, under the key `file`, called for instance this
   std::optional<Stage> stage;  ///< the first stage of a frame that looks at it; none: as what it is a part of, in the end the first of all
   ValueForm otherwise;         ///< of a list of structs: what may stand in its place, which the reader of files makes such a list of
@@ -189,6 +190,7 @@ struct Rows {
   Rows or_else(ValueForm form) && { return std::move(*this).with(&Row::otherwise, form); }
   /// Its numbers may also be in a text file.
   Rows or_file(const char* example) && { return std::move(*this).with(&Row::file, std::string(example)); }
+  Rows scales_lengths() && { return std::move(*this).with(&Row::scales_lengths, true); }
   Rows direction() && { return std::move(*this).with(&Row::direction, true); }
   /// No stage of a frame before this one looks at it.
   Rows since(Stage stage) && {

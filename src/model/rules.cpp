@@ -54,35 +54,6 @@ void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints
 }
 
 namespace {
-/// Point sources that stand for a light.
-long long sources_of(const Illumination& light) {
-  return static_cast<long long>(light.ring_leds) * (light.area.kind == Area::Kind::none ? 1 : light.area.points);
-}
-
-/// Samples of a light's pattern, as many times as it is kept.
-long long samples_of(const Illumination& light) {
-  const Pattern& pattern = light.pattern;
-  const bool table = pattern.kind == Pattern::Kind::table || pattern.kind == Pattern::Kind::flat_top;
-  return table ? sources_of(light) * pattern.columns * pattern.rows : 0;
-}
-
-/// Complains of the light that counts most where all of them count more than the limit.
-void add_up_to_the_limit(const Camera& camera, long long (*count)(const Illumination&), const base::Limit& limit, const std::string& what,
-                         const std::string& way_out, Complaints& complaints) {
-  const auto& lights = camera.illumination;
-  long long sum = 0;
-  for (const Illumination& light : lights) sum += count(light);
-  if (sum <= limit.value) return;
-  const Illumination& most =
-      *std::max_element(lights.begin(), lights.end(), [&](const Illumination& a, const Illumination& b) { return count(a) < count(b); });
-  const std::string more = "got " + std::to_string(sum) + ", at most " + std::to_string(limit.value) +
-                           " (`tofray --limits`); each LED of a ring and each point of an area is a source; " + way_out;
-  if (most.area.kind != Area::Kind::none) return complaints.add(most.area, &most.area.points, what, more, ErrorKind::limit);
-  complaints.add(most, &most.ring_leds, what, more, ErrorKind::limit);
-}
-}  // namespace
-
-namespace {
 /// What takes the place of one end of the ADC's valid codes has to fit the other one.
 void saturation_is_in_order(const Camera& camera, Complaints& complaints) {
   const Decoding& d = camera.decoding;
@@ -96,10 +67,7 @@ void saturation_is_in_order(const Camera& camera, Complaints& complaints) {
 
 void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints) {
   saturation_is_in_order(camera, complaints);
-  add_up_to_the_limit(camera, sources_of, base::limit::lights, "the camera has too many light sources", "take fewer points or LEDs",
-                      complaints);
-  add_up_to_the_limit(camera, samples_of, base::limit::light_samples, "the camera's light sources have too many samples of their patterns",
-                      "take fewer of them or coarser tables", complaints);
+  lights_are_within_the_limits(camera, complaints);
   const Sensor& sensor = camera.sensor;
   const long long pixels = static_cast<long long>(sensor.width) * sensor.height;
   const auto raw_frames = static_cast<long long>(camera.mode.sequence.size());
@@ -178,75 +146,6 @@ void tables_shine(const Pattern& pattern, Complaints& complaints) {
     complaints.add(pattern, &samples, "the pattern is dark", "expected a sample above 0");
   if (pattern.rows < 2 || pattern.columns < 2)
     complaints.add(pattern, &samples, "the pattern has fewer than two rows or columns", "a constant one needs the same number four times");
-}
-
-void boxes_are_thick(const Box& box, Complaints& complaints) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(box.max[k] - box.min[k] >= shortest_m))
-      complaints.add(box, &box.min, std::string("the box's min is not below its max in ") + "xyz"[k],
-                     "got " + number_text(box.min[k]) + " m and " + number_text(box.max[k]) + " m, expected a thickness of at least 1 um",
-                     ErrorKind::bad_input, static_cast<long long>(k));
-}
-
-void capsules_have_a_length(const Capsule& capsule, Complaints& complaints) {
-  using base::operator-;
-  if (base::length(capsule.end - capsule.start) < shortest_m)
-    complaints.add(capsule, &capsule.end, "the capsule ends where it starts",
-                   "expected points at least 1 um apart; a sphere has the same shape without them");
-}
-
-namespace {
-template <class Complain>
-void check_shades(const TriangleMesh& mesh, const Complain& complain) {
-  if (!mesh.shades.empty() && mesh.shades.size() != mesh.vertices.size())
-    return complain("the mesh has not as many shades as vertices", "got " + std::to_string(mesh.shades.size()) + " for " +
-                                                                       std::to_string(mesh.vertices.size()) +
-                                                                       " vertices; expected none, or one for each");
-  for (std::size_t i = 0; i < mesh.shades.size(); ++i)
-    if (!(mesh.shades[i] >= 0 && mesh.shades[i] <= 1))
-      return complain("the shade of vertex " + std::to_string(i) + " of the mesh is out of range",
-                      "got " + number_text(static_cast<double>(mesh.shades[i])) + ", expected 0 to 1");
-}
-}  // namespace
-
-void meshes_have_triangles(const Mesh& mesh, Complaints& complaints) {
-  const auto complain = [&](const std::string& what, const std::string& more) { complaints.add(mesh, &mesh.file, what, more); };
-  if (mesh.triangles == nullptr) return complain("the mesh has no triangles", "expected Mesh::triangles to point to some");
-  const TriangleMesh& all = *mesh.triangles;
-  const auto& vertices = all.vertices;
-  const auto& triangles = all.triangles;
-  if (vertices.size() > static_cast<std::size_t>(base::limit::mesh_vertices.value) ||
-      triangles.size() > static_cast<std::size_t>(base::limit::mesh_triangles.value))
-    return complaints.add(mesh, &mesh.file, "the mesh is too large",
-                          "got " + std::to_string(vertices.size()) + " vertices and " + std::to_string(triangles.size()) +
-                              " triangles, at most " + std::to_string(base::limit::mesh_vertices.value) + " and " +
-                              std::to_string(base::limit::mesh_triangles.value) + " (`tofray --limits`)",
-                          ErrorKind::limit);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    for (const float x : vertices[i])
-      if (!(std::abs(x) <= base::farthest_m))
-        return complain("vertex " + std::to_string(i) + " of the mesh is beyond the world",
-                        "got " + number_text(static_cast<double>(x)) + " m, expected at most " + number_text(base::farthest_m) + " m");
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (const std::int32_t corner : triangles[i])
-      if (corner < 0 || static_cast<std::size_t>(corner) >= vertices.size())
-        return complain("triangle " + std::to_string(i) + " of the mesh has a corner that there is not",
-                        "got vertex " + std::to_string(corner) + " of " + std::to_string(vertices.size()) + ", which count from 0");
-  const auto check_details = [&](const auto& rows, const char* what, float most) {
-    if (!rows.empty() && rows.size() != vertices.size())
-      return complain(
-          std::string("the mesh has not as many ") + what + " as vertices",
-          "got " + std::to_string(rows.size()) + " for " + std::to_string(vertices.size()) + " vertices; expected none, or one for each");
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const float x : rows[i])
-        if (!(std::abs(x) <= most))
-          return complain(
-              std::string(what) + " of vertex " + std::to_string(i) + " of the mesh are out of range",
-              "got " + number_text(static_cast<double>(x)) + ", expected numbers up to " + number_text(static_cast<double>(most)));
-  };
-  check_details(all.normals, "normals", 2.0F);
-  check_details(all.texcoords, "texture coordinates", 1e6F);
-  check_shades(all, complain);
 }
 
 namespace {

@@ -11,7 +11,9 @@ void far_is_beyond_near(const Decoding& decoding, Complaints& complaints);
 void gains_are_those_of_the_adc(const Camera& camera, Complaints& complaints);
 void lit_raw_frames_have_a_frequency(const RawFrame& raw, Complaints& complaints);
 void what_is_read_rises_with_the_charge(const Pixel& pixel, Complaints& complaints);
-/// The numbers of lights and of pixels are within the limits.
+/// The numbers of point sources and of samples of their patterns are within the limits.
+void lights_are_within_the_limits(const Camera& camera, Complaints& complaints);
+/// lights_are_within_the_limits(), and the numbers of pixels.
 void cameras_are_within_the_limits(const Camera& camera, Complaints& complaints);
 /// cameras_are_within_the_limits(), and the dark current at the temperature, and the mode's gain.
 void cameras_make_sense(const Camera& camera, Complaints& complaints);
@@ -33,9 +35,6 @@ void codes_by_bits(Adc& adc, const Given& given);
 void filter_at_the_light(Camera& camera, const Given& given);
 
 void materials_send_back_no_more_than_they_get(const Material& material, Complaints& complaints);
-void boxes_are_thick(const Box& box, Complaints& complaints);
-void capsules_have_a_length(const Capsule& capsule, Complaints& complaints);
-void meshes_have_triangles(const Mesh& mesh, Complaints& complaints);
 void turns_have_an_axis(const Rotation& rotation, Complaints& complaints);
 void poses_look_somewhere(const Pose& pose, Complaints& complaints);
 void objects_move_one_way(const Object& object, Complaints& complaints);

@@ -14,8 +14,6 @@ namespace {
 
 using enum base::Dimension;
 
-constexpr Number coordinate{length, {-base::farthest_m, base::farthest_m}, "0.5 m", true};
-constexpr Number component{none, {-1e6, 1e6}, "1"};
 constexpr auto most_objects = static_cast<int>(base::limit::objects.value);
 constexpr auto most_materials = static_cast<int>(base::limit::materials.value);
 
@@ -69,121 +67,6 @@ const Table& table_of<Material>() {
           .kind_may_be_missing();
   return rows;
 }
-
-template <>
-const Table& table_of<Plane>() {
-  static const Table rows =
-      table<Plane>(number<&Plane::point>("point", coordinate, "a point of the plane [m]").required(),
-                   number<&Plane::normal>("normal", component, "normal, of any length but zero; both sides reflect").direction());
-  return rows;
-}
-
-template <>
-const Table& table_of<Sphere>() {
-  static const Table rows =
-      table<Sphere>(number<&Sphere::center>("center", coordinate, "centre [m]").required(),
-                    number<&Sphere::radius>("radius", {length, {base::shortest_m, 1e5}, "25 cm"}, "radius [m]").required());
-  return rows;
-}
-
-template <>
-const Table& table_of<Box>() {
-  static const Table rows =
-      table<Box>(number<&Box::min>("min", coordinate, "corner with the smallest x, y and z, before the rotation [m]").required(),
-                 number<&Box::max>("max", coordinate, "opposite corner, before the rotation [m]").required())
-          .check_with(boxes_are_thick);
-  return rows;
-}
-
-/// In code, a triangle without an area is good: no ray hits it.
-template <>
-const Table& table_of<Triangle>() {
-  static const Table rows = table<Triangle>(number<&Triangle::vertices>("vertices", coordinate, "three corners [m]").required());
-  return rows;
-}
-
-template <>
-const Table& table_of<Cylinder>() {
-  static const Table rows = table<Cylinder>(
-      number<&Cylinder::center>("center", coordinate, "centre, halfway between the caps [m]").required(),
-      number<&Cylinder::axis>("axis", component, "axis from cap to cap, of any length but zero").required().direction(),
-      number<&Cylinder::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "radius [m]").required(),
-      number<&Cylinder::height>("height", {length, {base::shortest_m, 1e5}, "20 cm"}, "height, from cap to cap [m]").required());
-  return rows;
-}
-
-template <>
-const Table& table_of<Rectangle>() {
-  static const Table rows =
-      table<Rectangle>(number<&Rectangle::center>("center", coordinate, "centre [m]").required(),
-                       number<&Rectangle::size>("size", {length, {base::shortest_m, 1e5}, "40 cm", true},
-                                                "width and height, along x and y before the rotation; both sides reflect [m]")
-                           .required());
-  return rows;
-}
-
-template <>
-const Table& table_of<Disk>() {
-  static const Table rows =
-      table<Disk>(number<&Disk::center>("center", coordinate, "centre [m]").required(),
-                  number<&Disk::normal>("normal", component, "normal, of any length but zero; both sides reflect").required().direction(),
-                  number<&Disk::radius>("radius", {length, {base::shortest_m, 1e5}, "15 cm"}, "radius [m]").required());
-  return rows;
-}
-
-template <>
-const Table& table_of<Capsule>() {
-  static const Table rows =
-      table<Capsule>(number<&Capsule::start>("start", coordinate, "centre of one of the round ends [m]").required(),
-                     number<&Capsule::end>("end", coordinate, "centre of the other round end, another point than start [m]").required(),
-                     number<&Capsule::radius>("radius", {length, {base::shortest_m, 1e5}, "5 cm"}, "radius [m]").required())
-          .check_with(capsules_have_a_length);
-  return rows;
-}
-
-template <>
-const Table& table_of<Cone>() {
-  static const Table rows =
-      table<Cone>(number<&Cone::base>("base", coordinate, "centre of the base [m]").required(),
-                  number<&Cone::axis>("axis", component, "axis from the base to the tip, of any length but zero").required().direction(),
-                  number<&Cone::radius>("radius", {length, {base::shortest_m, 1e5}, "10 cm"}, "radius of the base [m]").required(),
-                  number<&Cone::height>("height", {length, {base::shortest_m, 1e5}, "30 cm"}, "height, from base to tip [m]").required());
-  return rows;
-}
-
-/// Of a mesh set in code, the triangles alone count.
-template <>
-const Table& table_of<Mesh>() {
-  static const Table rows =
-      table<Mesh>(
-          words<&Mesh::file>("file", "a file", "chair.glb",
-                             "OBJ, PLY, STL or glTF, beside the scene or below; or tofray:bumpy-ball, tofray:wavy-floor")
-              .required(),
-          number<&Mesh::scale>("scale", {none, {1e-9, 1e9}, "0.001"}, "scale from the file's numbers to metres: 0.001 for a file in mm"),
-          choice<&Mesh::up>("up", {"automatic", "y", "z", "-y", "none"},
-                            "the file's axis that is up, turned to `world_up`; automatic: y of an OBJ or glTF, z of a PLY or STL file; "
-                            "none: the file's axes are the world's"),
-          words<&Mesh::animation>("animation", "a name, a number or all", "all",
-                                  "animation of a glTF file that `time` and `play` refer to: its name, its number from 0 on, or all at "
-                                  "once; the first unless given"),
-          number<&Mesh::time_s>("time", {time, {0, 1e6}, "1.5 s"}, "time of a glTF file's animation; the file's rest pose unless given")
-              .absent(),
-          choice<&Mesh::play>("play", {"still", "once", "loop"},
-                              "whether a glTF file's animation plays, from `time` (or its start) on: once or repeatedly"),
-          words<&Mesh::sha256>("", "", "", ""),  // the reader's
-          no_row<&Mesh::left_out, &Mesh::guessed, &Mesh::notices, &Mesh::triangles, &Mesh::motion>("what the file holds"))
-          .check_with(meshes_have_triangles);
-  return rows;
-}
-
-namespace {
-template <class... T>
-std::vector<const Table& (*)()> tables_in(const std::variant<T...>*) {
-  return {&table_of<T>...};
-}
-}  // namespace
-
-std::vector<const Table& (*)()> tables_of_shapes() { return tables_in(static_cast<const decltype(Object::shape)*>(nullptr)); }
 
 namespace {
 
@@ -258,7 +141,7 @@ const Table& table_of<Object>() {
       table<Object>(
           words<&Object::name>("name", "a name", "ball", "name of the object in listings").absent(),
           // the key of the file's entry
-          one_of<&Object::shape>({"plane", "sphere", "box", "triangle", "cylinder", "rectangle", "disk", "capsule", "cone", "mesh"}),
+          one_of<&Object::shape>(names_of_shapes()),
           number<&Object::material>("", {none, {0, 2.0 * most_objects}, "0"}, ""),  // a name, or a material of its own
           number<&Object::position>("position", coordinate, "shift of the object [m]"),
           record<&Object::rotation>("rotation", "rotation about the object's own centre (of a plane: about its point)"),
@@ -466,6 +349,8 @@ ValueForm objects_form() {
   return list(std::move(form), 0, most_objects);
 }
 
+std::string plural(const std::string& name) { return name + (name.ends_with("x") || name.ends_with("h") ? "es" : "s"); }
+
 /// Keys that the scene has not, and what they mean.
 std::vector<std::pair<std::string, std::string>> words_that_people_try() {
   std::vector<std::pair<std::string, std::string>> words = {{"lights", "camera.illumination"},
@@ -477,22 +362,13 @@ std::vector<std::pair<std::string, std::string>> words_that_people_try() {
                                                             {"ambient_light", "ambient"},
                                                             {"shapes", "objects"},
                                                             {"geometry", "objects"},
-                                                            {"spheres", "objects"},
-                                                            {"planes", "objects"},
-                                                            {"boxes", "objects"},
-                                                            {"triangles", "objects"},
-                                                            {"cylinders", "objects"},
-                                                            {"rectangles", "objects"},
-                                                            {"disks", "objects"},
-                                                            {"capsules", "objects"},
-                                                            {"cones", "objects"},
-                                                            {"meshes", "objects"},
                                                             {"profile", "camera.profile"},
                                                             {"pose", "camera.pose"},
                                                             {"keyframes", "camera.keyframes"},
                                                             {"up_axis", "world_up"},
                                                             {"z_up", "world_up: z"},
                                                             {"seed", "--seed"}};
+  for (const std::string& shape : names_of_shapes()) words.emplace_back(plural(shape), "objects");
   for (const auto& [word, path] : camera_form().root.meant) words.emplace_back(word, "camera." + path);
   // What a camera's profile has may be meant for the scene's camera.
   for (const Key& key : camera_form().root.keys) words.emplace_back(key.name, "camera." + key.name);

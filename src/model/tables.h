@@ -4,7 +4,7 @@
 #include "base/limits.h"
 #include "model/row.h"
 
-/// The tables of all public structs: camera_table.cpp, light_table.cpp, scene_table.cpp.
+/// The tables of all public structs: camera_table.cpp, light_table.cpp, scene_table.cpp, shape_table.cpp.
 namespace tofray::model {
 
 /// Shares of light, and how shiny a surface can be.
@@ -14,6 +14,13 @@ inline constexpr base::Range share{0, 1}, phong_exponent{1, 1e4};
 inline constexpr Number sensor_side{base::Dimension::none, {1, static_cast<double>(base::limit::sensor_side.value)}, "224"};
 inline constexpr Number integration_time{base::Dimension::time, {1e-9, 1e3}, "2000 us"},
     frame_rate{base::Dimension::frequency, {1e-4, 1e5}, "5 Hz"};
+
+/// What files say of places and directions.
+inline constexpr Number coordinate{base::Dimension::length, {-base::farthest_m, base::farthest_m}, "0.5 m", true};
+inline constexpr Number component{base::Dimension::none, {-1e6, 1e6}, "1"};
+
+/// What files call the shapes, in the order of the variant Object::shape.
+const std::vector<std::string>& names_of_shapes();
 
 /// What files may say of a struct.
 ValueForm form_of(const Table& table);
@@ -73,7 +80,7 @@ const Table& table_of<Camera>();
 template <>
 const Table& table_of<Material>();
 template <>
-const Table& table_of<Box>();  // the one shape with a rule; those of the others are in tables_of_shapes()
+const Table& table_of<Mesh>();  // those of other shapes are in tables_of_shapes()
 template <>
 const Table& table_of<Rotation>();
 template <>

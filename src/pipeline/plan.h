@@ -146,6 +146,28 @@ void each_step_by_light_image(const Setup& s, const Job& job, Stage entry, bool 
   if (collects || wants_mixed(s, job.out)) run(Step{pass<FromArrays>, Part::collect, 0, light});
 }
 
+/// @return whether the frame takes the pass then
+template <When when, class P, class Run>
+bool take_at(const Setup& s, const Job& job, Stage entry, const Run& run) {
+  if constexpr (requires { P::when; }) {
+    if (P::when != when || !P::wanted(s, job, entry)) return false;
+    run(Step{pass<P>, Part::all, 0, {}});
+    return true;
+  }
+  return false;
+}
+template <When when, class Run, class... P>
+bool each_pass_at(const Setup& s, const Job& job, Stage entry, const Run& run, num::List<P...>) {
+  bool any = false;
+  ((any = take_at<when, P>(s, job, entry, run) || any), ...);
+  return any;
+}
+/// Calls run(step) for each pass that the frame takes then. @return whether there is one
+template <When when, class Run>
+bool each_pass_at(const Setup& s, const Job& job, Stage entry, const Run& run) {
+  return each_pass_at<when>(s, job, entry, run, Passes{});
+}
+
 /// Calls run(step) for each step after the depth of all pixels is known.
 template <class Run>
 void each_step_over_depth(const Setup& s, const Job& job, Stage entry, const Run& run) {
@@ -153,13 +175,13 @@ void each_step_over_depth(const Setup& s, const Job& job, Stage entry, const Run
     run(Step{pass<RangeFilter>, Part::all, 0, {}});
     run(Step{pass<WriteDepth>, Part::all, of_filter, {}});
   };
-  if (s.sensor.blooms != 0 && entry != Stage::depth) run(Step{pass<Blooming>, Part::all, 0, {}});
-  const bool first = keeps_edges(job.filter), check = s.decoder.flying_check != 0;
+  each_pass_at<When::after_pixels>(s, job, entry, run);
+  const bool first = keeps_edges(job.filter);
   if (first) filter();
-  if (check) run(Step{pass<FlyingPixels>, Part::all, 0, {}});
+  const bool flags = each_pass_at<When::over_depth>(s, job, entry, run);
   if (job.filter != FilterKind::none && !first) {
     filter();
-  } else if (check) {
+  } else if (flags) {
     run(Step{pass<WriteDepth>, Part::all, 0, {}});
   }
 }
@@ -171,8 +193,7 @@ void each_step_over_depth(const Setup& s, const Job& job, Stage entry, const Run
 template <class Run>
 void each_step(const Setup& s, const Job& job, Stage entry, bool known, const Run& run, bool kept = false) {
   const bool by_image = kept || has_light_image(s, entry);
-  if (s.last_stage >= Stage::raw && entry != Stage::depth && effect::LineNoise::draws_lines(s.sensor))
-    run(Step{pass<LineNoise>, Part::all, 0, {}});
+  each_pass_at<When::before_pixels>(s, job, entry, run);
   if (!by_image) {
     run(Step{entry == Stage::trace ? pass<FromRays> : pass<FromArrays>, Part::all, 0, {}});
   } else {

@@ -48,6 +48,12 @@ struct Box {
   static Vec center_of(const Said& said) {
     return 0.5 * (Placement::vec(said.min) + Placement::vec(said.max));
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const Vec half = 0.5 * (Placement::vec(said.max) - Placement::vec(said.min));
+    to.box(-1 * half, half);
+  }
   template <class Said>
   static Box placed(const Said& said, const Placement& at) {
     const Vec low = Placement::vec(said.min), high = Placement::vec(said.max), center = center_of(said);

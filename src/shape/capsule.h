@@ -49,6 +49,14 @@ struct Capsule {
   static Vec center_of(const Said& said) {
     return 0.5 * (Placement::vec(said.start) + Placement::vec(said.end));
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const Vec along = Placement::vec(said.end) - Placement::vec(said.start);
+    const double half = 0.5 * length(along);
+    to.arc(said.radius, -half, 0, 1), to.arc(said.radius, half, 1, 2);
+    to.turn_about(along);
+  }
   template <class Said>
   static Capsule placed(const Said& said, const Placement& at) {
     const Vec start = Placement::vec(said.start), end = Placement::vec(said.end), center = center_of(said), along = end - start;

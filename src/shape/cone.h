@@ -55,6 +55,12 @@ struct Cone {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.base);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    to.corner(0, 0), to.corner(said.radius, 0), to.corner(0, said.height);
+    to.turn_about(Placement::vec(said.axis));
+  }
   template <class Said>
   static Cone placed(const Said& said, const Placement& at) {
     const Vec base = center_of(said), axis = normalized(at.direction(Placement::vec(said.axis)));

@@ -57,6 +57,13 @@ struct Cylinder {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.center);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const double half = 0.5 * said.height;
+    to.corner(0, -half), to.corner(said.radius, -half), to.corner(said.radius, half), to.corner(0, half);
+    to.turn_about(Placement::vec(said.axis));
+  }
   template <class Said>
   static Cylinder placed(const Said& said, const Placement& at) {
     const Vec center = center_of(said);

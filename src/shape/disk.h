@@ -44,6 +44,12 @@ struct Disk {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.center);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    to.corner(said.radius, 0), to.corner(0, 0);
+    to.turn_about(Placement::vec(said.normal));
+  }
   template <class Said>
   static Disk placed(const Said& said, const Placement& at) {
     const Vec center = center_of(said);

@@ -17,6 +17,10 @@
 ///
 ///     a shape T        its numbers in double precision: in the world, or in the camera's frame
 ///     T::placed        … out of the public struct
+///     T::center_of     … what that turns about
+///     T::tessellate    … its surface as triangles about that point, seen from outside, for those who draw it: to.triangle(a, b, c),
+///                      to.quad(a, b, c, d), to.box(low, high); or an outline out of to.corner(radius, along) and to.arc(radius, middle,
+///                      from, to), which to.turn_about(axis) turns. Of what has no end it is a square of ±to.patch_m
 ///     in_frame(T, …)   … as seen in another frame
 ///     T::Form          what rays of a common origin need; seen_from(T, origin) makes it, the camera being at 0
 ///     T::Along         what light from one direction needs; seen_along(T, direction) makes it

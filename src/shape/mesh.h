@@ -113,6 +113,11 @@ struct Mesh : MeshTree {
   static Vec center_of(const Said&) {
     return {0, 0, 0};
   }
+  /// Its triangles as they are at the time.
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    to.mesh(said);
+  }
   /// @param built  the hierarchy of its triangles (scene/hierarchy.h)
   template <class Built>
   static Mesh placed(const Built& built, const Placement& at) {

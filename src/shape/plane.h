@@ -39,6 +39,13 @@ struct Plane {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.point);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const Vec normal = normalized(Placement::vec(said.normal)), u = to.patch_m * way_across({0, 0, 0}, normal);
+    const Vec v = cross(normal, u), origin{0, 0, 0};
+    to.quad(origin - u - v, u - v, u + v, v - u);
+  }
   template <class Said>
   static Plane placed(const Said& said, const Placement& at) {
     const Vec point = center_of(said);

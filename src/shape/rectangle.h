@@ -20,6 +20,12 @@ struct Rectangle {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.center);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const double x = 0.5 * said.size[0], y = 0.5 * said.size[1];
+    to.quad({-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0});
+  }
   template <class Said>
   static Rectangle placed(const Said& said, const Placement& at) {
     const Vec given = center_of(said), center = at.point(given, given);

@@ -45,6 +45,12 @@ struct Sphere {
   static Vec center_of(const Said& said) {
     return Placement::vec(said.center);
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    to.arc(said.radius, 0, 0, 2);
+    to.turn_about({0, 1, 0});
+  }
   template <class Said>
   static Sphere placed(const Said& said, const Placement& at) {
     const Vec center = center_of(said);

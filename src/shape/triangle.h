@@ -23,6 +23,13 @@ struct Triangle {
   static Vec center_of(const Said& said) {
     return (1.0 / 3) * (Placement::vec(said.vertices[0]) + Placement::vec(said.vertices[1]) + Placement::vec(said.vertices[2]));
   }
+  /// Its surface as triangles, about what it turns about (shape/list.h says what `to` takes).
+  template <class Said, class Sink>
+  static void tessellate(const Said& said, Sink& to) {
+    const Vec center = center_of(said);
+    to.triangle(Placement::vec(said.vertices[0]) - center, Placement::vec(said.vertices[1]) - center,
+                Placement::vec(said.vertices[2]) - center);
+  }
   template <class Said>
   static Triangle placed(const Said& said, const Placement& at) {
     const Vec v[3] = {Placement::vec(said.vertices[0]), Placement::vec(said.vertices[1]), Placement::vec(said.vertices[2])};

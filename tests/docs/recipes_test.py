@@ -9,7 +9,7 @@ import re
 import sys
 
 ROOMS = ("include", "src", "apps", "python/native", "python/tofray")
-WRITTEN_BY_TOOLS = {"python/tofray/_model.py", "python/tofray/_arrays.py"}
+WRITTEN_BY_TOOLS = {"python/tofray/_model.py", "python/tofray/_model_names.py", "python/tofray/_arrays.py"}
 ENDS = {".h", ".cpp", ".cu", ".py"}
 
 

@@ -18,6 +18,7 @@
 #include "commands/pixel_report.h"
 #include "commands/results.h"
 #include "files/npy.h"
+#include "pictures/pictures.h"
 #include "results/array_table.h"
 #include "results/file_arrays.h"
 #include "results/meta.h"
@@ -155,9 +156,9 @@ std::string flag_table(const results::Arrays& arrays) {
   const double pixels = static_cast<double>(std::max<std::size_t>(1, flags->count()));
   std::string text = fmt::format("\n{:<26} {:>8} {:>7.1f} %\n", "pixels with a depth", valid, 100 * static_cast<double>(valid) / pixels);
   for (std::size_t bit = 0; bit < counts.size(); ++bit) {
-    const char* effect = (flags_invalid >> bit & 1) != 0 ? ""
-                         : 1 << bit == flag_filtered     ? "   (the range is a filter's)"
-                                                         : "   (a warning, the depth stays)";
+    const pictures::FlagRow* const row = pictures::flag_of_bit(static_cast<int>(bit));
+    const bool stays = row != nullptr && !row->invalid, warns = (flags_reasons >> bit & 1) != 0;
+    const std::string effect = stays ? fmt::format("   ({})", warns ? "a warning, the depth stays" : row->what) : "";
     text += fmt::format("  {:<24} {:>8} {:>7.1f} %{}\n", flag_names()[bit], counts[bit], 100 * static_cast<double>(counts[bit]) / pixels,
                         effect);
   }

@@ -17,6 +17,8 @@
 #include "base/readout.h"
 #include "base/rotation.h"
 #include "base/text.h"
+#include "base/units.h"
+#include "model/row.h"
 #include "tofray/error.h"
 #include "tofray/simulator.h"
 
@@ -160,56 +162,57 @@ Moved turned(const SceneAt& at, const Object& object, const Drag& drag) {
   return out;
 }
 
-/// Sizes of a shape times a factor, about what it turns about.
-struct Scaled {
-  Moved& out;
-  const SceneAt& at;
-  const Object& object;
-  double factor;
-  void number(const char* key, double value) const {
-    add(out, at.set, key_of(object, key), base::number_text(to_nine_digits(value * factor)));
-  }
-  void length(const char* key, double value) const {
-    add(out, at.set, key_of(object, key), metres(to_nine_digits(value * factor)));
-    out.what += (out.what.empty() ? "" : ", ") + fmt::format("{} {:.4g} m", key, value * factor);
-  }
-  [[nodiscard]] Vec3 about(const Vec3& middle, const Vec3& point) const { return to_micrometre(middle + factor * (point - middle)); }
-  void point(const char* key, const Vec3& middle, const Vec3& value) const {
-    add(out, at.set, key_of(object, key), list_text(about(middle, value)));
+/// Sizes of a shape times a factor, about what it turns about. What its members are, their rows say.
+class Scaled {
+ public:
+  Scaled(Moved& out, const SceneAt& at, const Object& object, double factor)
+      : out_(out), at_(at), object_(object), factor_(factor), middle_(vec3(analysis::center_of(object))) {}
+
+  /// Lengths, points but for the one that it turns about, and what lengths are multiplied by. All else stays as it is.
+  void member(const model::Row& row, const model::Slot& slot) const {
+    const auto* number = std::get_if<double*>(&slot);
+    if (number != nullptr && row.scales_lengths) set(row, base::number_text(scaled(**number)));
+    if (!is_length(row.form)) return;
+    if (number != nullptr) {
+      set(row, metres(scaled(**number)));
+      say(fmt::format("{} {:.4g} m", row.key, **number * factor_));
+    }
+    if (const auto* const two = std::get_if<std::array<double, 2>*>(&slot)) {
+      const std::array<double, 2> sides{scaled((**two)[0]), scaled((**two)[1])};
+      set(row, list_text(sides));
+      say(fmt::format("{} {:.4g} x {:.4g} m", row.key, sides[0], sides[1]));
+    }
+    if (const auto* const point = std::get_if<Vec3*>(&slot); point != nullptr && **point != middle_) set(row, list_text(about(**point)));
+    if (const auto* const points = std::get_if<std::array<Vec3, 3>*>(&slot)) {
+      std::string text;
+      for (const Vec3& point : **points) text += (text.empty() ? "[" : ", ") + list_text(about(point));
+      set(row, text + "]");
+    }
   }
 
-  void operator()(const Plane&) const {
-    refuse(called(object) + " is a plane: it has no size", "planes are endless; a rectangle has a size");
+ private:
+  static bool is_length(const model::ValueForm& form) {
+    return form.kind == model::ValueForm::Kind::list ? is_length(form.forms[0]) : form.dimension == base::Dimension::length;
   }
-  void operator()(const Sphere& s) const { length("radius", s.radius); }
-  void operator()(const Box& s) const {
-    const Vec3 middle = 0.5 * (s.min + s.max);
-    point("min", middle, s.min), point("max", middle, s.max);
-  }
-  void operator()(const Triangle& s) const {
-    const Vec3 middle = vec3(analysis::center_of(object));
-    std::string text = "[";
-    for (std::size_t i = 0; i < 3; ++i) text += (i == 0 ? "" : ", ") + list_text(about(middle, s.vertices[i]));
-    add(out, at.set, key_of(object, "vertices"), text + "]");
-  }
-  void operator()(const Cylinder& s) const { length("radius", s.radius), length("height", s.height); }
-  void operator()(const Rectangle& s) const {
-    const std::array<double, 2> size{to_nine_digits(s.size[0] * factor), to_nine_digits(s.size[1] * factor)};
-    add(out, at.set, key_of(object, "size"), list_text(size));
-    out.what = fmt::format("size {:.4g} x {:.4g} m", size[0], size[1]);
-  }
-  void operator()(const Disk& s) const { length("radius", s.radius); }
-  void operator()(const Capsule& s) const {
-    const Vec3 middle = 0.5 * (s.start + s.end);
-    point("start", middle, s.start), point("end", middle, s.end), length("radius", s.radius);
-  }
-  void operator()(const Cone& s) const { length("radius", s.radius), length("height", s.height); }
-  void operator()(const Mesh& s) const { number("scale", s.scale); }
+  [[nodiscard]] double scaled(double value) const { return to_nine_digits(value * factor_); }
+  [[nodiscard]] Vec3 about(const Vec3& point) const { return to_micrometre(middle_ + factor_ * (point - middle_)); }
+  void set(const model::Row& row, std::string text) const { add(out_, at_.set, key_of(object_, row.key.c_str()), std::move(text)); }
+  void say(const std::string& what) const { out_.what += (out_.what.empty() ? "" : ", ") + what; }
+
+  Moved& out_;
+  const SceneAt& at_;
+  const Object& object_;
+  double factor_;
+  Vec3 middle_;
 };
 
 Moved scaled(const SceneAt& at, const Object& object, double factor) {
   Moved out;
-  std::visit(Scaled{out, at, object, factor}, object.shape);
+  const Scaled all(out, at, object, factor);
+  const void* const shape = std::visit([](const auto& said) -> const void* { return &said; }, object.shape);
+  for (const model::Row& row : model::tables_of_shapes()[object.shape.index()]().rows) all.member(row, model::slot_of(row, shape));
+  if (out.sets.empty())
+    refuse(called(object) + " is a " + analysis::kind_of(object) + ": it has no size", "planes are endless; a rectangle has a size");
   if (out.what.empty()) out.what = fmt::format("size x {:.4g}", factor);
   return out;
 }

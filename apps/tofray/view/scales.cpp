@@ -129,7 +129,7 @@ Json palettes_json() {
 Json invalid_json() {
   Json out = Json::array();
   for (const pictures::FlagRow& one : pictures::flag_table()) {
-    if (one.bit == flag_rejected || one.bit == flag_filtered) continue;  // no reasons
+    if ((one.bit & flags_reasons) == 0) continue;
     Json json = Json::object();
     json.set("bit", std::countr_zero(one.bit)).set("name", one.words).set("letter", std::string(1, one.letter));
     out.push(std::move(json.set("color", color_json(pictures::color_of_reason(one, pictures::Theme::dark))).set("advice", one.advice)));

@@ -28,6 +28,9 @@ struct Blooming {
   static constexpr const char* does = "flags of pixels into which full wells spill";
   static constexpr Over over = Over::rows;
   static constexpr int most_threads = most_block_threads;
+  static constexpr When when = When::after_pixels;
+
+  static bool wanted(const Setup& s, const Job&, Stage entry) { return s.sensor.blooms != 0 && entry != Stage::depth; }
 
   template <class F>
   TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {

@@ -42,6 +42,9 @@ struct FlyingPixels {
   static constexpr const char* does = "flags of flying pixels";
   static constexpr Over over = Over::rows;
   static constexpr int most_threads = most_block_threads;
+  static constexpr When when = When::over_depth;
+
+  static bool wanted(const Setup& s, const Job&, Stage) { return s.decoder.flying_check != 0; }
 
   template <class F>
   TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {

@@ -12,6 +12,11 @@ struct LineNoise {
   static constexpr const char* does = "noise of the sensor's columns and rows";
   static constexpr Over over = Over::raw_frames;
   static constexpr int most_threads = most_block_threads;
+  static constexpr When when = When::before_pixels;
+
+  static bool wanted(const Setup& s, const Job&, Stage entry) {
+    return s.last_stage >= Stage::raw && entry != Stage::depth && effect::LineNoise::draws_lines(s.sensor);
+  }
 
   TOFRAY_INLINE static effect::FrameIndex frame_of(const PassWork& w) { return {w.job.index_low, w.job.index_high}; }
   /// All lines of raw frame k.

@@ -18,7 +18,7 @@
 #include "pipeline/pass/transient.h"
 #include "pipeline/pass/write_depth.h"
 
-/// All passes, and what is asked of one whose number is known. The order in which a frame takes them is plan.h.
+/// All passes, and what is asked of one whose number is known. plan.h has the order in which a frame takes them.
 namespace tofray::pipeline {
 
 using Passes = num::List<DeriveScene, LineNoise, FromRays, FromArrays, Bounces, PathError, PathNoise, Smooth, SumLight, TransientHistogram,

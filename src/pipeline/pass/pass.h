@@ -13,8 +13,9 @@
 ///     P::pixels<F>(w, p) the pass for some pixels side by side, on any machine
 ///     P::row<F>(w, y)    … for a row of the image, where packs side by side are not all that there is to it
 ///     P::rays(s, item)   rays that each pixel sends, for the progress of a frame, where it is not one
+///     P::when            when a frame takes it, and P::wanted(s, job, entry) whether, where it has a step of its own over the image
 ///
-/// The order in which a frame takes them is plan.h.
+/// plan.h has the order: the steps of light's way by their names, and where those with P::when come in.
 namespace tofray::pipeline {
 
 struct Input;
@@ -25,6 +26,13 @@ enum class Over {
   tiles,       ///< of the image, in packs of pixels side by side
   rows,        ///< a band of the image's rows
   raw_frames,  ///< one of them
+};
+
+/// When a frame takes a pass that has a step of its own over the image. Of those at one time the first in the list is first.
+enum class When {
+  before_pixels,  ///< before the raw frames of any pixel
+  after_pixels,   ///< once the depth of all pixels is known
+  over_depth,     ///< later, over z, behind a filter that keeps edges; pixels that then fly are written as invalid
 };
 
 constexpr int most_block_threads = 1024;  ///< threads in the largest block of a GPU
