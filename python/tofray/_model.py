@@ -3492,8 +3492,7 @@ class BounceShare(Record):
     electrons : list[float], e
         Electrons by raw frame, before the lens scatters them.
     multipath_m : list[float], m
-        By raw frame: what it adds to the half path once all before it are there
-        [theory: multipath-error].
+        By raw frame: what it adds to the half path once all before it are there.
     """
     __slots__ = ("first", "last", "share", "electrons", "multipath_m")
     first: int
