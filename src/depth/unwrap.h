@@ -22,6 +22,8 @@ struct HalfPath {
 template <class F>
 class Odds {
  public:
+  /// @param square  χ² of the first cycle
+  TOFRAY_INLINE explicit Odds(F square) : sum_(F(1.0f)), least_(square) {}
   TOFRAY_INLINE void add(F square) {
     const auto better = square < least_;
     const F ratio = num::exp2(num::abs(square - least_) * F(per_half));
@@ -30,13 +32,14 @@ class Odds {
   }
   /// (Where nothing is a number: 0.)
   [[nodiscard]] TOFRAY_INLINE F of(F square) const {
-    const F share = num::exp2((square - least_) * F(per_half)) / sum_;
+    const bool of_least = num::all(square == least_);  // mostly: then nothing is to be computed
+    const F share = (of_least ? F(1.0f) : num::exp2((square - least_) * F(per_half))) / sum_;
     return num::select(share >= F(0.0f), num::min(share, F(1.0f)), F(0.0f));
   }
 
  private:
   static constexpr float per_half = -0.72134752f;  // −1/(2·ln 2)
-  F sum_ = F(0.0f), least_ = F(1e30f);
+  F sum_, least_;
 };
 
 /// Half path d_i = R_i(n_i + p_i) of modulation i that lies nearest to `target`.
@@ -59,10 +62,17 @@ TOFRAY_INLINE F square_of_cycle(const camera::DecoderView& s, const F* turns, co
 template <class F>
 TOFRAY_NOINLINE F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, const F& per_weights, const F& best) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
-  Odds<F> odds;
-  for (int n = 0; n < static_cast<int>(reference.cycles); ++n)
-    odds.add(square_of_cycle(s, turns, weight, per_weights, F(reference.half_wave) * (turns[s.reference] + F(static_cast<float>(n)))));
-  return odds.of(square_of_cycle(s, turns, weight, per_weights, best));
+  const F half_wave = F(reference.half_wave), first = half_wave * turns[s.reference];
+  const F of_first = square_of_cycle(s, turns, weight, per_weights, first);
+  F of_best = num::select(first == best, of_first, F(0.0f));
+  Odds<F> odds(of_first);
+  for (int n = 1; n < static_cast<int>(reference.cycles); ++n) {
+    const F d = half_wave * (turns[s.reference] + F(static_cast<float>(n)));
+    const F square = square_of_cycle(s, turns, weight, per_weights, d);
+    of_best = num::select(d == best, square, of_best);
+    odds.add(square);
+  }
+  return odds.of(of_best);
 }
 /// How likely the best cycle is. Mostly the next one is so far off that no float tells it from sure: with the misfits m = Σ off²,
 /// χ² ≥ m·w_ref·min w/Σ w of the others, and at most m·max w of the best.
