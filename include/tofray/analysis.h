@@ -85,7 +85,7 @@ SceneReport scene_report(const Scene& scene, const Camera& camera);
 /// @throws Error (bad_input) where they are not there or not of the same size, or name objects that the scene does not have
 SceneReport scene_report(const Scene& scene, const Camera& camera, const Truth& truth);
 
-/// Why a pixel has no depth: what truth tells of it, or else the reason that its flags say (tofray/flags.h). With truth, low_signal and
+/// Why a pixel has no depth: what truth tells of it, or else the reason that its flags say. With truth, low_signal and
 /// no_return are no_surface, beyond_reach or dark.
 enum class NoDepth {
   no_surface,    ///< its ray hits nothing
