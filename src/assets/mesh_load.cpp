@@ -89,6 +89,13 @@ class PlacedMotion : public MeshMotion {
   Axes up_;
 };
 
+/// Of a file with animations of which none plays: what would make one play.
+std::string stands_still(std::size_t count) {
+  return count == 1
+             ? "its animation stands still: play: loop plays it, time: 0 s is one moment of it"
+             : "its " + std::to_string(count) + " animations stand still: play: loop plays one of them, time: 0 s is one moment of it";
+}
+
 /// Of a file with several animations: which one it is.
 std::string which_plays(const gltf::Model& model, int animation, std::size_t count, bool by_default) {
   const std::string& name = model.animations[static_cast<std::size_t>(animation)].name;
@@ -315,6 +322,7 @@ std::vector<MeshPiece> MeshReader::from_gltf(const Places& places, const Mesh& w
     base::fail(places.animation, "animation says which one plays, and nothing plays", "add play: loop, or time: 0 s for one moment");
   const std::size_t animations = file.model.animations.size();
   const int animation = animation_of(file.model, wanted.animation, places.animation);
+  if (!plays && animations > 0) known.notices.push_back(stands_still(animations));
   if (plays && animations > 1) known.notices.push_back(which_plays(file.model, animation, animations, wanted.animation.empty()));
   const std::optional<double> start_s = wanted.play == Mesh::Play::still ? wanted.time_s : wanted.time_s.value_or(0);
   std::vector<MeshPiece> pieces = pieces_of(file.model, pose_at(file.model, animation, start_s), by_material, path, places.file);
