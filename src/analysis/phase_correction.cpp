@@ -11,7 +11,7 @@
 namespace tofray::analysis {
 
 PhaseCorrection::PhaseCorrection(const camera::DecoderView& decoder, const camera::DecodeModulation& modulation) {
-  for (int j = 0; j < decoder.wiggling_nodes; ++j) value_.push_back(static_cast<double>(modulation.wiggling[2 * j]));
+  for (int j = 0; j < decoder.wiggling_nodes; ++j) value_.push_back(static_cast<double>(modulation.wiggling[4 * j]));
 }
 
 double PhaseCorrection::operator()(double measured) const {

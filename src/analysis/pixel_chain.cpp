@@ -111,16 +111,15 @@ void calibrate(const camera::DecoderView& d, const camera::LensView& lens, std::
   for (std::size_t i = 0; i < chain.phases.size() && i < static_cast<std::size_t>(d.modulations); ++i) {
     ChainPhase& phase = chain.phases[i];
     const camera::DecodeModulation& m = d.modulation[i];
-    float slope = 0;
-    const auto calibrated = static_cast<double>(depth::unwiggle<float>(d, m, static_cast<float>(phase.measured_turns), slope));
+    const auto [calibrated, slope, light] = depth::unwiggle<float>(d, m, static_cast<float>(phase.measured_turns));
     const double delay = d.delay == nullptr ? 0 : static_cast<double>(d.delay[i * static_cast<std::size_t>(d.delay_stride) + pixel]);
-    phase.calibrated_turns = calibrated - delay * phase.modulation_frequency_hz;
+    phase.calibrated_turns = static_cast<double>(calibrated) - delay * phase.modulation_frequency_hz;
     phase.calibrated_turns -= std::floor(phase.calibrated_turns);
     phase.half_wave_m = static_cast<double>(m.half_wave);
     phase.cycles = std::round(half_path(chain, d) / phase.half_wave_m - phase.calibrated_turns) + 0.0;  // no -0
     phase.half_path_m = phase.half_wave_m * (phase.cycles + phase.calibrated_turns);
     const depth::Estimate<float> e = depth::estimate(d, m, difference.data());
-    const float variance = depth::variance_of(d, m, difference.data(), e, grey * m.ambient_scale);
+    const float variance = depth::variance_of(d, m, difference.data(), e, light, grey * m.ambient_scale);
     phase.noise_e = std::sqrt(2 * static_cast<double>(variance) / m.count);
     turns.push_back(static_cast<float>(phase.calibrated_turns)), weight.push_back(depth::inverse_variance(m, e, variance, slope));
   }

@@ -51,29 +51,20 @@ TOFRAY_INLINE Estimate<F> estimate(const camera::DecoderView& s, const camera::D
   return {real, imaginary, num::select(positive >= F(1.0f), F(0.0f), positive), num::sqrt(num::fma(real, real, imaginary * imaginary))};
 }
 
-/// A table's value at φ̂, on a straight line from node to node, and the step between these.
+/// What a measured phase stands for: harmonics bend the phase, and the amplitude likewise.
 template <class F>
-TOFRAY_INLINE F at_phase(const camera::DecoderView& s, const float* table, F turns, F& step) {
-  const F place = turns * F(static_cast<float>(s.wiggling_nodes));
-  const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1)));
-  F value;
-  num::gather_pair(table, num::to_int(node), value, step);
-  return num::fma(place - node, step, value);
-}
-/// φ̂ → φ by the wiggling table; `slope` is dφ/dφ̂.                                     [theory: wiggling-correction]
+struct Unwiggled {
+  F turns;  ///< φ/2π                                                                    [theory: wiggling-correction]
+  F slope;  ///< dφ/dφ̂
+  F light;  ///< S/Â: electrons of light for each one of Â                                    [theory: noise-estimate]
+};
+/// By the table of the modulation frequency, on straight lines from node to node.
 template <class F>
-TOFRAY_INLINE F unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns, F& slope) {
-  F step;
-  const F correction = at_phase(s, m.wiggling, turns, step);
-  slope = num::fma(step, F(static_cast<float>(s.wiggling_nodes)), F(1.0f));
-  return turns + correction;
-}
-/// Electrons of light for each one of Â: harmonics bend the amplitude as they bend the phase.  [theory: noise-estimate]
-template <class F>
-TOFRAY_INLINE F light_per_amplitude(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
-  if (m.light == nullptr) return F(m.per_contrast);
-  F step;
-  return at_phase(s, m.light, turns, step);
+TOFRAY_INLINE Unwiggled<F> unwiggle(const camera::DecoderView& s, const camera::DecodeModulation& m, F turns) {
+  const F nodes = F(static_cast<float>(s.wiggling_nodes)), place = turns * nodes;
+  const F node = num::min(num::floor(place), F(static_cast<float>(s.wiggling_nodes - 1))), part = place - node;
+  const auto [correction, step, light, light_step] = num::gather_four(m.wiggling, num::to_int(node)).value;
+  return {turns + num::fma(part, step, correction), num::fma(step, nodes, F(1.0f)), num::fma(part, light_step, light)};
 }
 
 /// Electrons of ambient light in the unlit raw frames together, at least 0: their A−B, or the charge of which this is read: all of the light is in
@@ -140,13 +131,13 @@ TOFRAY_INLINE F charge_left(const camera::DecoderView& s, const camera::DecodeMo
 /// Variance with a nonlinear readout: charge variance × (slope of the readout curve)². Only the
 /// signal is small enough to go by the slope; it and the slope are found in turns, from no signal on, and held to what the taps hold.
 ///                                                                                                                  [theory: noise-as-read]
+/// @param light  electrons of light for each one of Â
 /// @param known  electrons of both taps that are no signal: ambient light and dark current
 template <class F>
 TOFRAY_INLINE F variance_as_read(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                                 F known) {
+                                 F light, F known) {
   constexpr int turns = 6;
   const F both_full = F(2 * s.read.most);
-  const F per_amplitude = light_per_amplitude(s, m, e.turns);
   F collected = num::min(known, both_full), slope = F(1.0f), per_slope = F(1.0f);
   for (int turn = 0; turn < turns; ++turn) {
     const F before = slope;
@@ -154,7 +145,7 @@ TOFRAY_INLINE F variance_as_read(const camera::DecoderView& s, const camera::Dec
     slope = num::max(slope, F(1e-12f));                // a spline may fall between two samples that rise
     if (turn > 0 && num::all(slope == before)) break;  // it is of straight lines: all that follows would stay
     per_slope = F(1.0f) / slope;
-    collected = num::min(num::fma(e.amplitude * per_slope, per_amplitude, known), both_full);
+    collected = num::min(num::fma(e.amplitude * per_slope, light, known), both_full);
   }
   F variance = collected + F(s.noise_floor - s.output_floor);
   if (s.suppression_threshold > 0) variance = variance + suppression_variance(s, m, difference, e, collected, per_slope);
@@ -162,13 +153,14 @@ TOFRAY_INLINE F variance_as_read(const camera::DecoderView& s, const camera::Dec
 }
 
 /// V̂ = Â·S/Â(φ̂) + B̂ + dark + 2σ_r² + s²/12, and what suppression adds.                       [theory: noise-estimate]
+/// @param light   electrons of light for each one of Â
 /// \tparam plain  as of decode
 template <bool plain = false, class F>
 TOFRAY_INLINE F variance_of(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* difference, const Estimate<F>& e,
-                            F ambient) {
+                            F light, F ambient) {
   const float dark = s.dark_rate_both * m.integration_time;
-  if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, ambient + F(dark));
-  const F electrons = num::fma(e.amplitude, light_per_amplitude(s, m, e.turns), ambient);
+  if (!plain && s.read.cell != nullptr) return variance_as_read(s, m, difference, e, light, ambient + F(dark));
+  const F electrons = num::fma(e.amplitude, light, ambient);
   const F variance = electrons + F(s.noise_floor + dark);
   if (plain || !(s.suppression_threshold > 0)) return variance;
   return variance + suppression_variance(s, m, difference, e, electrons + F(dark), F(1.0f));
@@ -207,14 +199,13 @@ TOFRAY_INLINE num::Int<F> rejected_bit(const camera::DecoderView& s, num::Int<F>
   return num::select((flags & num::Int<F>(s.rejected)) == none, none, num::Int<F>(rejected));
 }
 
-/// φ/2π in [0, 1) of one modulation frequency: what the wiggling table and the pixel's own delay say of φ̂; `slope` is dφ/dφ̂.
+/// φ/2π in [0, 1) of one modulation frequency: without what the pixel's own delay adds.
 /// @param i       its number
+/// @param phi     φ/2π as the wiggling table has it
 /// \tparam plain  as of decode
 template <bool plain, class F>
-TOFRAY_INLINE F wrapped_turns(const camera::DecoderView& s, int i, const Estimate<F>& e, const flow::Pixels& p, F& slope) {
-  const camera::DecodeModulation& m = s.modulation[i];
-  F phi = unwiggle(s, m, e.turns, slope);
-  if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(m.frequency), phi);
+TOFRAY_INLINE F wrapped_turns(const camera::DecoderView& s, int i, F phi, const flow::Pixels& p) {
+  if (!plain && s.delay != nullptr) phi = num::fnma(camera::late_by<F>(s, i, p), F(s.modulation[i].frequency), phi);
   return phi - num::floor(phi);
 }
 
@@ -235,9 +226,9 @@ TOFRAY_INLINE void each_frequency(const camera::DecoderView& s, const F* differe
   for (int i = 0; i < s.modulations; ++i) {
     const camera::DecodeModulation& m = s.modulation[i];
     const Estimate<F> e = estimate(s, m, difference);
-    F slope;
-    turns[i] = wrapped_turns<false>(s, i, e, p, slope);
-    weight[i] = inverse_variance(m, e, variance_of<false>(s, m, difference, e, grey * F(m.ambient_scale)), slope);
+    const Unwiggled<F> known = unwiggle(s, m, e.turns);
+    turns[i] = wrapped_turns<false>(s, i, known.turns, p);
+    weight[i] = inverse_variance(m, e, variance_of<false>(s, m, difference, e, known.light, grey * F(m.ambient_scale)), known.slope);
     out[i].amplitude = e.amplitude;
   }
   const HalfPath<F> half = unwrap(s, turns, weight);
@@ -265,11 +256,11 @@ TOFRAY_INLINE Depth<F> decode(const camera::DecoderView& s, const F* difference,
   for (int i = 0; i < s.modulations; ++i) {
     const camera::DecodeModulation& m = s.modulation[i];
     const Estimate<F> e = estimate(s, m, difference);
-    F slope;
-    turns[i] = wrapped_turns<plain>(s, i, e, p, slope);
+    const Unwiggled<F> known = unwiggle(s, m, e.turns);
+    turns[i] = wrapped_turns<plain>(s, i, known.turns, p);
     const F light = grey * F(m.ambient_scale);
-    const F variance = variance_of<plain>(s, m, difference, e, light);
-    weight[i] = inverse_variance(m, e, variance, slope);
+    const F variance = variance_of<plain>(s, m, difference, e, known.light, light);
+    weight[i] = inverse_variance(m, e, variance, known.slope);
     moved = moved | phases_disagree<F>(s, m, difference, variance);
     amplitude = amplitude + e.amplitude;
     ambient = ambient + light;

@@ -60,11 +60,11 @@ TOFRAY_INLINE F square_of_cycle(const camera::DecoderView& s, const F* turns, co
   return num::min(num::max(num::fnma(first * per_weights, first, second), F(0.0f)), F(1e30f));
 }
 template <class F>
-TOFRAY_NOINLINE F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, const F& per_weights, const F& best) {
+TOFRAY_INLINE F share_of_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F best) {
   const camera::DecodeModulation& reference = s.modulation[s.reference];
   const F half_wave = F(reference.half_wave), first = half_wave * turns[s.reference];
   const F of_first = square_of_cycle(s, turns, weight, per_weights, first);
-  F of_best = num::select(first == best, of_first, F(0.0f));
+  F of_best = of_first;  // unless another one is the best
   Odds<F> odds(of_first);
   for (int n = 1; n < static_cast<int>(reference.cycles); ++n) {
     const F d = half_wave * (turns[s.reference] + F(static_cast<float>(n)));
@@ -78,18 +78,15 @@ TOFRAY_NOINLINE F share_of_cycle(const camera::DecoderView& s, const F* turns, c
 /// χ² ≥ m·w_ref·min w/Σ w of the others, and at most m·max w of the best.
 /// @param least, next  misfits of the best and of the next one
 template <class F>
-TOFRAY_INLINE F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F weights, F best, F least, F next) {
+TOFRAY_INLINE F trust_in_cycle(const camera::DecoderView& s, const F* turns, const F* weight, F per_weights, F best, F least, F next) {
   constexpr float sure = 40;  // e^−20 of all
   F low = F(3e38f), high = F(0.0f);
   for (int i = 0; i < s.modulations; ++i) {
     if (i != s.reference) low = num::min(low, weight[i]), high = num::max(high, weight[i]);
   }
-  const F per_weights = F(1.0f) / weights;
   const Mask<F> is_sure = num::fnma(least, high, next * (low * (weight[s.reference] * per_weights))) > F(sure);
   if (num::all(is_sure)) return F(1.0f);
-  F turns_copy[flow::max_modulation_frequencies], weight_copy[flow::max_modulation_frequencies];
-  for (int i = 0; i < s.modulations; ++i) turns_copy[i] = turns[i], weight_copy[i] = weight[i];
-  return num::select(is_sure, F(1.0f), share_of_cycle<F>(s, turns_copy, weight_copy, per_weights, best));
+  return num::select(is_sure, F(1.0f), share_of_cycle<F>(s, turns, weight, per_weights, best));
 }
 
 /// Each cycle of the modulation with the fewest is tried: the others' nearest half paths say how well it fits; the best fit wins. For two
@@ -131,7 +128,7 @@ TOFRAY_INLINE HalfPath<F> unwrap(const camera::DecoderView& s, const F* turns, c
   mean = num::fnma(num::floor(mean * F(s.per_common_range)), F(s.common_range), mean);
   mean = num::select(mean < F(0.0f), mean + F(s.common_range), mean);
   mean = num::select(mean >= F(s.common_range), mean - F(s.common_range), mean);
-  return {mean, variance, cycles > 1 ? trust_in_cycle(s, turns, weight, weights, best, least, next) : F(1.0f), inconsistent};
+  return {mean, variance, cycles > 1 ? trust_in_cycle(s, turns, weight, variance, best, least, next) : F(1.0f), inconsistent};
 }
 
 }  // namespace tofray::depth

@@ -119,6 +119,18 @@ TOFRAY_INLINE void gather_pair(const float* table, I32x8 index, F32x8& first, F3
   const __m256 inner = _mm256_insertf128_ps(_mm256_castps128_ps256(two_pairs(pairs, i[2], i[3])), two_pairs(pairs, i[6], i[7]), 1);
   first = _mm256_shuffle_ps(outer, inner, 0x88), second = _mm256_shuffle_ps(outer, inner, 0xDD);
 }
+/// Four by four, turned.
+TOFRAY_INLINE Four<F32x8> gather_four(const float* table, I32x8 index) {
+  alignas(32) std::int32_t i[8];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(i), index.v);
+  __m256 row[4];
+  for (int j = 0; j < 4; ++j)
+    row[j] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(table + 4 * i[j])), _mm_load_ps(table + 4 * i[j + 4]), 1);
+  const __m256 low = _mm256_unpacklo_ps(row[0], row[1]), more_low = _mm256_unpacklo_ps(row[2], row[3]);
+  const __m256 high = _mm256_unpackhi_ps(row[0], row[1]), more_high = _mm256_unpackhi_ps(row[2], row[3]);
+  return {{_mm256_shuffle_ps(low, more_low, 0x44), _mm256_shuffle_ps(low, more_low, 0xEE), _mm256_shuffle_ps(high, more_high, 0x44),
+           _mm256_shuffle_ps(high, more_high, 0xEE)}};
+}
 TOFRAY_INLINE I32x8 gather(const std::int32_t* table, I32x8 index) { return _mm256_i32gather_epi32(table, index.v, 4); }
 TOFRAY_INLINE std::int32_t first_of(Mask8 m, I32x8 a) {
   return _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(a.v, _mm256_set1_epi32(__builtin_ctz(lanes_of(m)))));
@@ -135,6 +147,27 @@ TOFRAY_INLINE float highest(F32x8 a) {
   return _mm_cvtss_f32(_mm_max_ss(m, _mm_movehdup_ps(m)));
 }
 
+/// Of each set of eight lanes, in a byte each: which lanes those are that have a bit, one after the other; and the way back, the place of
+/// each of them (128: it has no bit).
+struct DenseLanes {
+  std::uint64_t to[256], back[256];
+  constexpr DenseLanes() : to(), back() {
+    for (int bits = 0; bits < 256; ++bits) {
+      int place = 0;
+      for (int lane = 0; lane < 8; ++lane) {
+        const bool has = (bits >> lane & 1) != 0;
+        back[bits] |= std::uint64_t{has ? static_cast<unsigned>(place) : 128u} << (8 * lane);
+        if (has) to[bits] |= std::uint64_t{static_cast<unsigned>(lane)} << (8 * place++);
+      }
+    }
+  }
+};
+inline constexpr DenseLanes dense_lanes;
+TOFRAY_INLINE __m256i eight_bytes(std::uint64_t bytes) { return _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(static_cast<long long>(bytes))); }
+TOFRAY_INLINE void store_dense(float* to, F32x8 a, std::uint32_t bits) {
+  _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(a.v, eight_bytes(dense_lanes.to[bits])));
+}
+
 TOFRAY_INLINE __m256i first_lanes8(int n) { return _mm256_cmpgt_epi32(_mm256_set1_epi32(n), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)); }
 template <>
 struct Memory<F32x8> {
@@ -146,6 +179,10 @@ struct Memory<F32x8> {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)), _mm_loadu_ps(from + row), 1);
   }
   TOFRAY_INLINE static void finish_stores() { _mm_sfence(); }
+  TOFRAY_INLINE static F32x8 load_dense(const float* from, std::uint32_t bits) {
+    const __m256i place = eight_bytes(dense_lanes.back[bits]);  // below 0: no bit
+    return _mm256_andnot_ps(_mm256_castsi256_ps(_mm256_srai_epi32(place, 31)), _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), place));
+  }
   TOFRAY_INLINE static I32x8 load_int(const std::int32_t* from, int n) { return _mm256_maskload_epi32(from, first_lanes8(n)); }
 };
 TOFRAY_INLINE void store_square(float* to, int row, F32x8 a) {

@@ -115,6 +115,21 @@ TOFRAY_INLINE void gather_pair(const float* table, I32x16 index, F32x16& first, 
   first = _mm512_permutex2var_ps(low, even, high);
   second = _mm512_permutex2var_ps(low, _mm512_add_epi32(even, _mm512_set1_epi32(1)), high);
 }
+TOFRAY_INLINE __m256 two_fours(const float* table, std::int32_t low, std::int32_t high) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(table + 4 * low)), _mm_load_ps(table + 4 * high), 1);
+}
+/// Four by four, turned.
+TOFRAY_INLINE Four<F32x16> gather_four(const float* table, I32x16 index) {
+  alignas(64) std::int32_t i[16];
+  _mm512_store_si512(i, index.v);
+  __m512 row[4];
+  for (int j = 0; j < 4; ++j)
+    row[j] = _mm512_insertf32x8(_mm512_castps256_ps512(two_fours(table, i[j], i[j + 4])), two_fours(table, i[j + 8], i[j + 12]), 1);
+  const __m512 low = _mm512_unpacklo_ps(row[0], row[1]), more_low = _mm512_unpacklo_ps(row[2], row[3]);
+  const __m512 high = _mm512_unpackhi_ps(row[0], row[1]), more_high = _mm512_unpackhi_ps(row[2], row[3]);
+  return {{_mm512_shuffle_ps(low, more_low, 0x44), _mm512_shuffle_ps(low, more_low, 0xEE), _mm512_shuffle_ps(high, more_high, 0x44),
+           _mm512_shuffle_ps(high, more_high, 0xEE)}};
+}
 TOFRAY_INLINE I32x16 gather(const std::int32_t* table, I32x16 index) { return _mm512_i32gather_epi32(index.v, table, 4); }
 TOFRAY_INLINE std::int32_t first_of(Mask16 m, I32x16 a) {
   return _mm_cvtsi128_si32(_mm512_castsi512_si128(_mm512_maskz_compress_epi32(m.v, a.v)));
@@ -126,8 +141,15 @@ TOFRAY_INLINE float lowest(F32x16 a) { return lowest(min(low_half(a), high_half(
 TOFRAY_INLINE float highest(F32x16 a) { return highest(max(low_half(a), high_half(a))); }
 
 TOFRAY_INLINE __mmask16 first_lanes16(int n) { return static_cast<__mmask16>(n >= 16 ? 0xffffu : (1u << n) - 1u); }
+TOFRAY_INLINE void store_dense(float* to, F32x16 a, std::uint32_t bits) {
+  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(bits), a.v));
+}
+
 template <>
 struct Memory<F32x16> {
+  TOFRAY_INLINE static F32x16 load_dense(const float* from, std::uint32_t bits) {
+    return _mm512_maskz_expand_ps(static_cast<__mmask16>(bits), _mm512_loadu_ps(from));
+  }
   TOFRAY_INLINE static void finish_stores() { _mm_sfence(); }
   TOFRAY_INLINE static I32x16 lane_index() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
   TOFRAY_INLINE static F32x16 load(const float* from, int n) {

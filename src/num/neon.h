@@ -123,6 +123,13 @@ TOFRAY_INLINE void gather_pair(const float* table, I32x4 index, F32x4& first, F3
   const float32x4_t high = vcombine_f32(vld1_f32(table + 2 * vgetq_lane_s32(index.v, 2)), vld1_f32(table + 2 * vgetq_lane_s32(index.v, 3)));
   first = vuzp1q_f32(low, high), second = vuzp2q_f32(low, high);
 }
+TOFRAY_INLINE Four<F32x4> gather_four(const float* table, I32x4 index) {
+  const float32x4_t a = vld1q_f32(table + 4 * vgetq_lane_s32(index.v, 0)), b = vld1q_f32(table + 4 * vgetq_lane_s32(index.v, 1));
+  const float32x4_t c = vld1q_f32(table + 4 * vgetq_lane_s32(index.v, 2)), d = vld1q_f32(table + 4 * vgetq_lane_s32(index.v, 3));
+  const float32x4_t even = vtrn1q_f32(a, b), odd = vtrn2q_f32(a, b), more_even = vtrn1q_f32(c, d), more_odd = vtrn2q_f32(c, d);
+  return {{vcombine_f32(vget_low_f32(even), vget_low_f32(more_even)), vcombine_f32(vget_low_f32(odd), vget_low_f32(more_odd)),
+           vcombine_f32(vget_high_f32(even), vget_high_f32(more_even)), vcombine_f32(vget_high_f32(odd), vget_high_f32(more_odd))}};
+}
 
 // By comparisons, and in the order of AVX's lanes: zeros keep their signs.
 TOFRAY_INLINE float lowest(F32x4 a) {
@@ -146,8 +153,19 @@ TOFRAY_INLINE std::int32_t first_of(Mask4 m, I32x4 a) {
 }
 
 // Parts of a pack lane by lane: nothing beyond it is read or written.
+TOFRAY_INLINE void store_dense(float* to, F32x4 a, std::uint32_t bits) {
+  float lane[4];
+  vst1q_f32(lane, a.v);
+  for (; bits != 0; bits &= bits - 1) *to++ = lane[__builtin_ctz(bits)];
+}
+
 template <>
 struct Memory<F32x4> {
+  TOFRAY_INLINE static F32x4 load_dense(const float* from, std::uint32_t bits) {
+    float lane[4] = {0, 0, 0, 0};
+    for (; bits != 0; bits &= bits - 1) lane[__builtin_ctz(bits)] = *from++;
+    return vld1q_f32(lane);
+  }
   TOFRAY_INLINE static I32x4 lane_index() { return numbered4(); }
   TOFRAY_INLINE static F32x4 load(const float* from, int n) {
     if (n >= 4) return vld1q_f32(from);

@@ -144,6 +144,14 @@ TOFRAY_INLINE std::int32_t gather(const std::int32_t* table, std::int32_t index)
 TOFRAY_INLINE void gather_pair(const float* table, std::int32_t index, float& first, float& second) {
   first = table[2 * index], second = table[2 * index + 1];
 }
+/// Four values in a row; the table is aligned to 16 bytes.
+template <class F>
+struct Four {
+  F value[4];
+};
+TOFRAY_INLINE Four<float> gather_four(const float* table, std::int32_t index) {
+  return {{table[4 * index], table[4 * index + 1], table[4 * index + 2], table[4 * index + 3]}};
+}
 
 /// The value of the first lane of those in a mask, of which there is one at least.
 TOFRAY_INLINE std::int32_t first_of(bool, std::int32_t a) { return a; }
@@ -159,6 +167,7 @@ struct Memory<float> {
   TOFRAY_INLINE static float load(const float* from, int) { return *from; }
   TOFRAY_INLINE static std::int32_t load_int(const std::int32_t* from, int) { return *from; }
   TOFRAY_INLINE static std::int32_t lane_index() { return 0; }
+  TOFRAY_INLINE static float load_dense(const float* from, std::uint32_t bits) { return bits != 0 ? *from : 0.0f; }
 };
 
 /// The first n lanes to or from memory; the others read as 0 and are not written.
@@ -185,6 +194,13 @@ TOFRAY_INLINE void store(float* to, float a, int) { *to = a; }
 TOFRAY_INLINE void store(std::int32_t* to, std::int32_t a, int) { *to = a; }
 TOFRAY_INLINE void store(std::uint16_t* to, std::int32_t a, int) { *to = static_cast<std::uint16_t>(a); }
 TOFRAY_INLINE void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
+/// Lanes that have a bit, one after the other, to memory, in which what follows may be written over: up to as many values as there are lanes.
+TOFRAY_INLINE void store_dense(float* to, float a, std::uint32_t) { *to = a; }
+/// … and back into the lanes that have a bit; the others are 0. As many values as there are lanes may be read.
+template <class F>
+TOFRAY_INLINE F load_dense(const float* from, std::uint32_t bits) {
+  return Memory<F>::load_dense(from, bits);
+}
 
 /// Says early that n values will be read, or written, from table[first] on, if there is a table: for the processor's types, which wait for
 /// memory.

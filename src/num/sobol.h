@@ -44,8 +44,8 @@ TOFRAY_INLINE F unit(Uint<F> word) {
 
 /// Where in the sequence number `index` is once it is shuffled: numbers 0 to 2ⁿ − 1 stay together.
 template <class F>
-TOFRAY_INLINE Uint<F> shuffled(std::uint32_t index, Uint<F> seed) {
-  return reversed<F>(turned_over<F>(reversed<F>(Uint<F>(index)), seed));
+TOFRAY_INLINE Uint<F> shuffled(Uint<F> index, Uint<F> seed) {
+  return reversed<F>(turned_over<F>(reversed<F>(index), seed));
 }
 
 /// @param shuffled  number of the point

@@ -179,6 +179,11 @@ TOFRAY_INLINE void gather_pair(const float* table, TwinInt<H> index, Twin<H>& fi
   gather_pair(table, index.b, first.b, second.b);
 }
 template <class H>
+TOFRAY_INLINE Four<Twin<H>> gather_four(const float* table, TwinInt<H> index) {
+  const Four<H> a = gather_four(table, index.a), b = gather_four(table, index.b);
+  return {{{a.value[0], b.value[0]}, {a.value[1], b.value[1]}, {a.value[2], b.value[2]}, {a.value[3], b.value[3]}}};
+}
+template <class H>
 TOFRAY_INLINE std::int32_t first_of(TwinMask<H> m, TwinInt<H> x) {
   return any(m.a) ? first_of(m.a, x.a) : first_of(m.b, x.b);
 }
@@ -197,6 +202,12 @@ TOFRAY_INLINE int beyond(int n) {
   return n > lanes<H> ? n - lanes<H> : 0;
 }
 
+/// Bits of the first half's lanes.
+template <class H>
+TOFRAY_INLINE std::uint32_t low_bits(std::uint32_t bits) {
+  return bits & ((std::uint32_t{1} << lanes<H>)-1);
+}
+
 template <class H>
 struct Memory<Twin<H>> {
   TOFRAY_INLINE static void finish_stores() { Memory<H>::finish_stores(); }
@@ -208,6 +219,10 @@ struct Memory<Twin<H>> {
   }
   TOFRAY_INLINE static Twin<H> load_square(const float* from, int row) {
     return {num::load_square<H>(from, row), num::load_square<H>(from + lanes<H> / 4 * row, row)};
+  }
+  TOFRAY_INLINE static Twin<H> load_dense(const float* from, std::uint32_t bits) {
+    const std::uint32_t low = low_bits<H>(bits);
+    return {num::load_dense<H>(from, low), num::load_dense<H>(from + __builtin_popcount(low), bits >> lanes<H>)};
   }
   TOFRAY_INLINE static TwinInt<H> lane_index() { return {num::lane_index<H>(), num::lane_index<H>() + Int<H>(lanes<H>)}; }
 };
@@ -222,6 +237,11 @@ TOFRAY_INLINE void store_square(float* to, int row, Twin<H> x) {
 template <class H, class Element>
 TOFRAY_INLINE void store(Element* to, TwinInt<H> x, int n) {
   store(to, x.a, n), store(to + lanes<H>, x.b, beyond<H>(n));
+}
+template <class H>
+TOFRAY_INLINE void store_dense(float* to, Twin<H> x, std::uint32_t bits) {
+  const std::uint32_t low = low_bits<H>(bits);
+  store_dense(to, x.a, low), store_dense(to + __builtin_popcount(low), x.b, bits >> lanes<H>);
 }
 template <class H>
 inline constexpr bool can_store_past<Twin<H>> = can_store_past<H>;

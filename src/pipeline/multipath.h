@@ -34,9 +34,9 @@ template <class F>
 TOFRAY_INLINE MultipathError<F> multipath_error(const camera::DecoderView& s, const camera::DecodeModulation& m, const F* all,
                                                 const F* direct) {
   const depth::Estimate<F> of_all = depth::estimate(s, m, all), of_direct = depth::estimate(s, m, direct);
-  F slope, unused;
-  const F turns = depth::unwiggle(s, m, of_all.turns, slope) - depth::unwiggle(s, m, of_direct.turns, unused);
-  return {(turns - num::round_even(turns)) * F(m.half_wave), slope, of_all.amplitude, of_direct.amplitude > F(0.0f)};
+  const depth::Unwiggled<F> phase = depth::unwiggle(s, m, of_all.turns);
+  const F turns = phase.turns - depth::unwiggle(s, m, of_direct.turns).turns;
+  return {(turns - num::round_even(turns)) * F(m.half_wave), phase.slope, of_all.amplitude, of_direct.amplitude > F(0.0f)};
 }
 
 /// What an error across Ẑ does to the half path: at most half its unambiguous range, and nothing where there is no light.

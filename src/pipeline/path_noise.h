@@ -81,9 +81,9 @@ TOFRAY_INLINE void store_path_noise(const Setup& s, const flow::LightImage& imag
   for (int j = 0; j < s.decoder.modulations; ++j) {
     const camera::DecodeModulation& m = s.decoder.modulation[j];
     const depth::Estimate<F> e = depth::estimate(s.decoder, m, all);
-    F slope;
-    (void)depth::unwiggle(s.decoder, m, e.turns, slope);
-    weight = weight + depth::inverse_variance(m, e, depth::variance_of(s.decoder, m, all, e, ambient_rate * F(m.integration_time)), slope);
+    const auto [turns, slope, light] = depth::unwiggle(s.decoder, m, e.turns);
+    weight = weight +
+             depth::inverse_variance(m, e, depth::variance_of(s.decoder, m, all, e, light, ambient_rate * F(m.integration_time)), slope);
     const F variance = pooled[j] * (here.reflectivity * here.reflectivity) / num::to_float(paths);
     float* const known = image.noise + std::int64_t{j} * s.lens.width * s.lens.height + p.index;
     num::store(known, round == 0 ? variance : num::select(goes_on, variance, num::load<F>(known, p.count)), p.count);

@@ -198,9 +198,8 @@ TEST(wiggling, is_interpolated_to_a_few_micrometres) {
         camera::wiggling_table(camera::correlation_harmonics(wave, camera.pixel, f), {0, pi / 2, pi, 3 * pi / 2}, 2048).correction;
     double worst = 0;
     for (int j = 1; j < 2048; j += 2) {
-      float slope;
       const float turns = static_cast<float>(j) / 2048;
-      const float got = depth::unwiggle<float>(bench.decoder(), bench.decoder().modulation[0], turns, slope);
+      const float got = depth::unwiggle<float>(bench.decoder(), bench.decoder().modulation[0], turns).turns;
       worst = std::max(worst, std::abs(static_cast<double>(got) - j / 2048.0 - exact[static_cast<std::size_t>(j)]));
     }
     EXPECT_NEAR(worst * c / (2 * f), known, 0.15e-6) << f;  // of that 0.1 µm for single precision: 2^-25 turns

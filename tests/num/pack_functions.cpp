@@ -121,6 +121,12 @@ TOFRAY_INLINE bool whole_numbers(int which, const PackBlock& block) {
             at.put(first, 2);
             at.put(second, 3);
           });
+    case 8:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            const num::Four<F> four = num::gather_four(block.table, num::to_signed(at.ua() >> 24));
+            for (int k = 0; k < 4; ++k) at.put(four.value[k], k);
+          });
     default: return false;
   }
 }
@@ -232,6 +238,22 @@ TOFRAY_INLINE bool parts(int which, const PackBlock& block) {
     case 4:
       return each(
           block, [&](const At& at) __attribute__((always_inline)) { past_caches<F>(at); });
+    case 5:
+      return each(
+          block, [&](const At& at) __attribute__((always_inline)) {
+            // those of any lanes, one after the other, and back again
+            const std::uint32_t some = block.b[at.i] & static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1);
+            float dense[2 * lanes], back[lanes];
+            for (float& one : dense) one = num::from_bits(7u);
+            num::store_dense(dense, at.a(), some), num::store(back, num::load_dense<F>(dense, some), lanes);
+            int place = 0;
+            for (int k = 0; k < lanes; ++k) {
+              const bool has = (some >> k & 1) != 0;
+              block.out[at.i + k] |= num::bits(back[k]) ^ (has ? block.a[at.i + k] : 0u);
+              if (has) block.out[pack_block + at.i + k] |= num::bits(dense[place++]) ^ block.a[at.i + k];
+            }
+            for (int k = lanes; k < 2 * lanes; ++k) block.out[2 * pack_block + at.i] |= num::bits(dense[k]) ^ 7u;
+          });
     default: return false;
   }
 }

@@ -120,8 +120,7 @@ std::vector<camera::DecodeModulation> pack_decoder(Packer& packer, const pipelin
   std::vector<camera::DecodeModulation> modulations(from.modulation, from.modulation + from.modulations);
   for (camera::DecodeModulation& m : modulations) {
     m.raw_frame = packer.put(m.raw_frame, count_of(m.count)), m.pair = packer.put(m.pair, 2 * count_of(m.pairs));
-    m.wiggling = packer.put(m.wiggling, 2 * count_of(from.wiggling_nodes));
-    m.light = packer.put(m.light, 2 * count_of(from.wiggling_nodes));
+    m.wiggling = packer.put(m.wiggling, 4 * count_of(from.wiggling_nodes));
   }
   to.modulation = packer.put(static_cast<const camera::DecodeModulation*>(modulations.data()), modulations.size());
   to.frame = packer.put(from.frame, count_of(setup.sensor.raw_frames)),

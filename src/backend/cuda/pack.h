@@ -46,9 +46,9 @@ std::vector<camera::DecodeModulation> pack_camera(Packer& packer, const pipeline
 void pack_raw_frames(Packer& packer, const pipeline::Setup& from, camera::SensorView& to);
 /// How long the decoder thinks each modulation frequency was exposed: that changes where exposures follow the light.
 void pack_exposures(Packer& packer, std::vector<camera::DecodeModulation> there, const camera::DecoderView& from, camera::DecoderView& to);
-/// The scene's shapes and materials, and what is derived of those that stand still. `to` is a copy of `from` and gets other pointers.
-/// Where its things are at the times of a frame, and how they move.
+/// Where the scene's things are at the times of a frame, and how they move.
 void pack_motion(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
+/// Its shapes and materials, and what is derived of those that stand still. `to` is a copy of `from` and gets other pointers.
 void pack_scene(Packer& packer, const scene::SceneView& from, scene::SceneView& to);
 
 }  // namespace tofray::backend::gpu

@@ -110,11 +110,23 @@ std::vector<Harmonic> harmonics_of(const std::vector<Share>& shares, const Pixel
   return out;
 }
 
-/// A table's values, each with the step to the next one.
-std::vector<float> with_steps(const std::vector<double>& values) {
+bool is_even(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least <= 1e-6 * *most;
+}
+
+/// The table as kernels read it: correction, and light for each electron of the amplitude, each with the step to the next node.
+/// @param contrast  amplitude of the first harmonic, which all nodes have that are alike but for rounding
+std::vector<float> with_steps(const WigglingTable& table, double contrast) {
   std::vector<float> out;
-  for (std::size_t j = 0; j < values.size(); ++j)
-    out.insert(out.end(), {single(values[j]), single(values[(j + 1) % values.size()] - values[j])});
+  std::vector<double> light;
+  for (const double one : table.amplitude) light.push_back(1 / one);
+  if (is_even(table.amplitude)) light.assign(light.size(), 1 / contrast);
+  for (std::size_t j = 0; j < light.size(); ++j) {
+    const std::size_t next = (j + 1) % light.size();
+    out.insert(out.end(), {single(table.correction[j]), single(table.correction[next] - table.correction[j]), single(light[j]),
+                           single(light[next] - light[j])});
+  }
   return out;
 }
 
@@ -147,11 +159,6 @@ WigglingTable known_wiggling(const Camera& camera, double frequency, const std::
   const double half_wave = speed_of_light / camera.refractive_index / (2 * frequency);
   out.correction = correction_of(*one, drifted, half_wave, camera.decoding.wiggling_correction);
   return out;
-}
-
-bool is_even(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most - *least <= 1e-6 * *most;
 }
 
 }  // namespace
@@ -269,17 +276,13 @@ void FrozenDecoder::freeze_modulations() {
     }
     if (!camera_.decoding.wiggling_correction) harmonics.resize(1);
     const WigglingTable table = known_wiggling(camera_, frequency, harmonics, group.tau);
-    wiggling_.push_back(with_steps(table.correction));
-    std::vector<double> per_amplitude;
-    for (const double one : table.amplitude) per_amplitude.push_back(1 / one);
-    light_.push_back(with_steps(per_amplitude));
+    wiggling_.push_back(with_steps(table, contrast));
     const double half_wave = wave_speed / (2 * frequency);
     DecodeModulation& m = decode_modulations_.emplace_back();
     m.half_wave = single(half_wave), m.per_half_wave = single(1 / half_wave), m.cycles = single(modulations_.cycles[at]),
     m.frequency = single(frequency);
-    m.per_contrast = single(1 / contrast), m.integration_time = single(group.integration_time);
+    m.integration_time = single(group.integration_time);
     m.wiggling = wiggling_.back().data();
-    m.light = is_even(table.amplitude) ? nullptr : light_.back().data();
     m.ambient_scale = single(grey > 0 ? group.integration_time / grey : 0),
     m.variance_factor = single(2 / (count * 4 * pi * pi) * half_wave * half_wave);
     grouped_.push_back(group.raw_frame), pairs_.push_back(pairs_of(group));
@@ -316,9 +319,9 @@ void FrozenDecoder::freeze_known_delays(const SensorView& sensor) {
 void FrozenDecoder::freeze_without_modulation() {
   DecoderView& d = view_;
   d.modulations = 1;
-  wiggling_.emplace_back(2 * wiggling_nodes, 0.0f);
+  wiggling_.emplace_back(4 * wiggling_nodes, 0.0f);
   DecodeModulation& m = decode_modulations_.emplace_back();
-  m.half_wave = m.per_half_wave = m.cycles = m.per_contrast = m.variance_factor = 1;
+  m.half_wave = m.per_half_wave = m.cycles = m.variance_factor = 1;
   m.ambient_scale = single(1.0 / d.grey_frames);
   m.wiggling = wiggling_[0].data();
   d.common_range = d.per_common_range = 1;

@@ -50,7 +50,7 @@ class FrozenDecoder {
   std::vector<DecodeModulation> decode_modulations_;
   std::vector<std::int32_t> grey_frames_;
   std::vector<std::vector<std::int32_t>> grouped_, pairs_;  // [modulation]
-  std::vector<std::vector<float>> wiggling_, light_;
+  std::vector<std::vector<float>> wiggling_;
   std::vector<float> known_late_;  // pixels' delays as decoding knows them of a specimen, [modulation][height][width]
 };
 

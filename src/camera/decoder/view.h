@@ -14,15 +14,14 @@ struct DecodeModulation {
   float per_half_wave;  ///< 1/R
   float cycles;         ///< M: periods in the common range
   float frequency;      ///< [Hz]
-  float per_contrast;   ///< 1/C, C the first harmonic's amplitude
   float integration_time;
   float ambient_scale;            ///< t_int over the grey frames' time
   float variance_factor;          ///< variance of the half path is this times V/Â²: (2/N)·(R/2π)²
   std::int32_t count, pairs;      ///< raw frames of this modulation; pairs of them with τ half a turn apart
   const std::int32_t* raw_frame;  ///< [count]
   const std::int32_t* pair;       ///< [pairs][2]
-  const float* light;             ///< [wiggling_nodes][2] S/Â at equidistant φ̂, and the step to the next node; null: 1/C throughout
-  const float* wiggling;          ///< [wiggling_nodes][2] φ − φ̂ in turns at equidistant φ̂, and the step to the next node
+  /// [wiggling_nodes][4] φ − φ̂ in turns at equidistant φ̂, and the step to the next node; S/Â and the step likewise. Aligned to 16 bytes.
+  const float* wiggling;
 };
 
 struct DecodeRawFrame {
