@@ -64,6 +64,18 @@ struct Group {
   shape::ByShape<ClustersOf> clusters;
   std::int32_t body_count, facet_count;
 
+  /// One shape's forms as an eye sees them, or as parallel light does.
+  /// @param row  moment·eyes + eye, or moment
+  template <class T>
+  TOFRAY_INLINE FormsOf<T> seen_from(int row) const {
+    const int count = bodies.of<T>().count;
+    return {derived.of<T>().forms + row * count, count, clusters.of<T>().seen_from(row)};
+  }
+  template <class T>
+  TOFRAY_INLINE AlongsOf<T> seen_along(int row) const {
+    const int count = bodies.of<T>().count;
+    return {derived.of<T>().along + row * count, count, clusters.of<T>().seen_along(row)};
+  }
   TOFRAY_INLINE Forms seen_from(int moment, int eye, int eyes) const { return seen_from(shape::Shapes{}, moment * eyes + eye); }
   TOFRAY_INLINE Alongs seen_along(int moment) const { return seen_along(shape::Shapes{}, moment); }
   bool operator==(const Group&) const = default;
@@ -72,13 +84,13 @@ struct Group {
   template <class... T>
   TOFRAY_INLINE Forms seen_from(shape::List<T...>, int row) const {
     Forms out;
-    ((out.of<T>() = {derived.of<T>().forms + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_from(row)}), ...);
+    ((out.of<T>() = seen_from<T>(row)), ...);
     return out;
   }
   template <class... T>
   TOFRAY_INLINE Alongs seen_along(shape::List<T...>, int row) const {
     Alongs out;
-    ((out.of<T>() = {derived.of<T>().along + row * bodies.of<T>().count, bodies.of<T>().count, clusters.of<T>().seen_along(row)}), ...);
+    ((out.of<T>() = seen_along<T>(row)), ...);
     return out;
   }
 };
@@ -124,6 +136,8 @@ struct SceneView {
   TOFRAY_INLINE Forms camera_moving(int moment) const { return moving.seen_from(moment, 0, 1 + lights); }
   TOFRAY_INLINE Forms light_still(int light) const { return still.seen_from(0, 1 + light, 1 + lights); }
   TOFRAY_INLINE Forms light_moving(int moment, int light) const { return moving.seen_from(moment, 1 + light, 1 + lights); }
+  /// Of a group's forms those that a light sees at a moment, 0 of what stands still.
+  TOFRAY_INLINE int row_of_light(int moment, int light) const { return moment * (1 + lights) + 1 + light; }
   TOFRAY_INLINE Alongs sun_still() const { return still.seen_along(0); }
   TOFRAY_INLINE Alongs sun_moving(int moment) const { return moving.seen_along(moment); }
   TOFRAY_INLINE const float* sun(int moment) const { return sun_directions + 3 * moment; }

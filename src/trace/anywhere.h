@@ -124,6 +124,7 @@ TOFRAY_NOINLINE void meet_in_boxes(const typename T::Free* forms, const scene::B
 template <class T, class F>
 TOFRAY_INLINE void meet_all(const scene::Group& group, int moment, const FreeRay<F>& ray, const Leaving<F>& from, Met<F>& met) {
   const int count = group.bodies.of<T>().count;
+  if (count == 0) return;
   const typename T::Free* forms = group.derived.of<T>().free + moment * count;
   if constexpr (has_boxes<T, F>) {
     const scene::Boxes boxes = group.clusters.of<T>().around(moment);

@@ -113,9 +113,28 @@ TOFRAY_NOINLINE void block_in_boxes(const scene::AlongsOf<T>& forms, const scene
   each_in_reach<F>(boxes, rays, [&](int body) TOFRAY_LAMBDA { dark = blocked_along_one<T>(forms.at[body], sun, p, margin, dark); });
 }
 
+/// What a group's forms are to a light, or to the sun, shape by shape: a list of all of them takes longer than to ask the few that there are.
+struct FormsInTurn {
+  const scene::Group& group;
+  int row;
+  template <class T>
+  TOFRAY_INLINE scene::FormsOf<T> of() const {
+    return group.seen_from<T>(row);
+  }
+};
+struct AlongsInTurn {
+  const scene::Group& group;
+  int row;
+  template <class T>
+  TOFRAY_INLINE scene::AlongsOf<T> of() const {
+    return group.seen_along<T>(row);
+  }
+};
+
 /// @param light  the ray from it, or the direction to the sun
 template <class T, class F, class Views, class Light>
 TOFRAY_INLINE void block_by(const Views& views, Asking<F>& asking, const Light& light, const Place<F>& p, Mask<F>& dark) {
+  if (asking.group.bodies.template of<T>().count == 0) return;
   if constexpr (has_boxes<T, F>) {
     const scene::Boxes boxes = asking.template boxes<T>();
     if (boxes.count > 0) {
@@ -142,21 +161,21 @@ TOFRAY_INLINE Mask<F> block_by_each(shape::List<T...>, const Views& views, Askin
 }
 
 /// Points anywhere that a group's forms keep from a light. [as blocked]
-/// @param at  the light's position
+/// @param row  of its forms, that of the light
+/// @param at   the light's position
 template <class F>
-TOFRAY_NOINLINE Mask<F> blocked_anywhere(const scene::Group& group, int moment, const scene::Forms& forms, const float* at,
-                                         const Ray<F>& ray, const Place<F>& p) {
+TOFRAY_NOINLINE Mask<F> blocked_anywhere(const scene::Group& group, int moment, int row, const float* at, const Ray<F>& ray,
+                                         const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {F(at[0]), F(at[1]), F(at[2]), ray.x, ray.y, ray.z}, F(1.0f), p.found, rays};
-  return block_by_each(shape::Shapes{}, forms, asking, ray, p);
+  return block_by_each(shape::Shapes{}, FormsInTurn{group, row}, asking, ray, p);
 }
 /// Where something stands between a place anywhere and the sun. [as blocked_parallel]
 template <class F>
-TOFRAY_NOINLINE Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const scene::Alongs& forms, const float* sun,
-                                                  const Place<F>& p) {
+TOFRAY_NOINLINE Mask<F> blocked_parallel_anywhere(const scene::Group& group, int moment, const float* sun, const Place<F>& p) {
   RaysApart<F> rays;
   const Asking<F> asking{group, moment, {p.x, p.y, p.z, F(sun[0]), F(sun[1]), F(sun[2])}, F(shape::never), p.found, rays};
-  return block_by_each(shape::Shapes{}, forms, asking, sun, p);
+  return block_by_each(shape::Shapes{}, AlongsInTurn{group, moment}, asking, sun, p);
 }
 
 }  // namespace tofray::trace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "backend/cpu/cpu.h"
@@ -257,4 +258,36 @@ TEST(scenes_in_motion, have_the_same_bytes_on_all_kinds_of_code) {
   }
   EXPECT_GT(moving, with_sanitizers ? 1000 : 5000);
   EXPECT_GT(turning, with_sanitizers ? 200 : 1000);
+}
+
+// Path by path without lanes; where there are lanes, all paths of several samples together, those that go on closing ranks at each surface.
+// By one light and several, the sun, the sky, phasors and sums alone, in motion, in rounds, more paths than are summed at once.
+TEST(bounced_light, has_the_same_bytes_path_by_path_and_many_paths_at_once) {
+  const int bounces[] = {7, 1, 3, 12, 2, 64}, samples[] = {16, 7, 140, 4, 34};
+  std::size_t indirect = 0;
+  for (int i = 0; i < (with_sanitizers ? 4 : 16); ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 4000);
+    Case c{random_scene(random, 12 + i, i % 5 == 2), load_camera("pico-flexx")};
+    cut_out(c.scene);
+    c.scene.camera.pose = random_pose(random);
+    c.camera.sensor.width = 5 + 3 * i, c.camera.sensor.height = 1 + i % 6;
+    Lens& lens = c.camera.lens;
+    lens.cx_px = 0.5 * (c.camera.sensor.width - 1), lens.cy_px = 0.5 * (c.camera.sensor.height - 1);
+    lens.fx_px = lens.fy_px = c.camera.sensor.width * 0.7;
+    c.scene.transport.bounces = bounces[i % 6], c.scene.transport.samples = samples[i % 5];
+    if (i % 4 == 3) c.scene.transport.max_samples = 4 * c.scene.transport.samples, c.scene.transport.path_noise_m = 1e-3;
+    if (i % 3 == 1) c.camera.illumination.push_back(c.camera.illumination[0]), c.camera.illumination[1].position = random.point(0.4);
+    if (i % 3 == 2) c.camera.pixel.delay_s = 1e-10;
+    if (i % 4 != 0) c.scene.ambient.spectrum = Ambient::Spectrum::sun_am15, c.scene.ambient.amount = 0.1;
+    if (i % 4 == 1) c.scene.ambient.direction = Vec3{0.3, 0.8, 0.4} + random.point(0.3);
+    if (i % 6 == 5) set_in_motion(random, c.scene, i % 4 == 1);
+    SCOPED_TRACE("scene " + std::to_string(i));
+    const Frame reference = render(c, Isa::scalar, false);
+    for (const float one : reference.truth.multipath_m) indirect += one != 0 && !std::isnan(one);
+    for (const Isa isa : backend::machine_isas) {
+      if (!backend::can_run(isa)) continue;
+      same(render(c, isa, true, 2), reference);
+    }
+  }
+  EXPECT_GT(indirect, with_sanitizers ? 50U : 500U);
 }
