@@ -106,6 +106,18 @@ TOFRAY_INLINE void multiply_wide(U32x8 a, U32x8 b, U32x8& high, U32x8& low) {
   low = _mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xAA);
 }
 
+/// Half bytes by tables, then bytes by places.
+TOFRAY_INLINE U32x8 reversed(U32x8 a) {
+  const __m256i half = _mm256_set1_epi8(0x0f);
+  const __m256i upper =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, -128, 0x40, -64, 0x20, -96, 0x60, -32, 0x10, -112, 0x50, -48, 0x30, -80, 0x70, -16));
+  const __m256i lower = _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
+  const __m256i places = _mm256_broadcastsi128_si256(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  const __m256i in_bytes = _mm256_or_si256(_mm256_shuffle_epi8(upper, _mm256_and_si256(a.v, half)),
+                                           _mm256_shuffle_epi8(lower, _mm256_and_si256(_mm256_srli_epi32(a.v, 4), half)));
+  return _mm256_shuffle_epi8(in_bytes, places);
+}
+
 TOFRAY_INLINE F32x8 gather(const float* table, I32x8 index) { return _mm256_i32gather_ps(table, index.v, 4); }
 TOFRAY_INLINE __m128 two_pairs(const double* pairs, std::int32_t low, std::int32_t high) {
   return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pairs + low), pairs + high));

@@ -107,6 +107,18 @@ TOFRAY_INLINE void multiply_wide(U32x16 a, U32x16 b, U32x16& high, U32x16& low) 
   low = _mm512_mask_shuffle_epi32(even, 0xAAAA, odd, static_cast<_MM_PERM_ENUM>(0xA0));
 }
 
+/// Half bytes by tables, then bytes by places.
+TOFRAY_INLINE U32x16 reversed(U32x16 a) {
+  const __m512i half = _mm512_set1_epi8(0x0f);
+  const __m512i upper =
+      _mm512_broadcast_i32x4(_mm_setr_epi8(0, -128, 0x40, -64, 0x20, -96, 0x60, -32, 0x10, -112, 0x50, -48, 0x30, -80, 0x70, -16));
+  const __m512i lower = _mm512_broadcast_i32x4(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
+  const __m512i places = _mm512_broadcast_i32x4(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  const __m512i in_bytes = _mm512_or_si512(_mm512_shuffle_epi8(upper, _mm512_and_si512(a.v, half)),
+                                           _mm512_shuffle_epi8(lower, _mm512_and_si512(_mm512_srli_epi32(a.v, 4), half)));
+  return _mm512_shuffle_epi8(in_bytes, places);
+}
+
 TOFRAY_INLINE F32x16 gather(const float* table, I32x16 index) { return _mm512_i32gather_ps(index.v, table, 4); }
 TOFRAY_INLINE void gather_pair(const float* table, I32x16 index, F32x16& first, F32x16& second) {
   const __m512 low = _mm512_castpd_ps(_mm512_i32gather_pd(_mm512_castsi512_si256(index.v), table, 8));

@@ -106,6 +106,8 @@ TOFRAY_INLINE void multiply_wide(U32x4 a, U32x4 b, U32x4& high, U32x4& low) {
 }
 
 // There is no gather: a load for each lane.
+TOFRAY_INLINE U32x4 reversed(U32x4 a) { return vreinterpretq_u32_u8(vrev32q_u8(vrbitq_u8(vreinterpretq_u8_u32(a.v)))); }
+
 TOFRAY_INLINE F32x4 gather(const float* table, I32x4 index) {
   float32x4_t out = vdupq_n_f32(table[vgetq_lane_s32(index.v, 0)]);
   out = vld1q_lane_f32(table + vgetq_lane_s32(index.v, 1), out, 1);

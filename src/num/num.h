@@ -136,6 +136,17 @@ TOFRAY_INLINE void multiply_wide(std::uint32_t a, std::uint32_t b, std::uint32_t
 #endif
 }
 
+/// The bits of a word from its other end.
+TOFRAY_INLINE std::uint32_t reversed(std::uint32_t a) {
+#if defined(__CUDA_ARCH__)
+  return __brev(a);
+#else
+  const auto swapped = [](std::uint32_t x, int n, std::uint32_t mask) TOFRAY_LAMBDA { return ((x >> n) & mask) | ((x & mask) << n); };
+  a = swapped(a, 1, 0x55555555u), a = swapped(a, 2, 0x33333333u), a = swapped(a, 4, 0x0f0f0f0fu);
+  return __builtin_bswap32(a);
+#endif
+}
+
 /// table[index], lane by lane.
 TOFRAY_INLINE float gather(const float* table, std::int32_t index) { return table[index]; }
 TOFRAY_INLINE std::int32_t gather(const std::int32_t* table, std::int32_t index) { return table[index]; }

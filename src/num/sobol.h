@@ -7,15 +7,6 @@
 /// (1995) has it. Each point depends on its number and on seeds alone.                                 [theory: sobol-pairs]
 namespace tofray::num {
 
-/// The bits of a word from its other end.
-template <class F>
-TOFRAY_INLINE Uint<F> reversed(Uint<F> a) {
-  const auto swapped = [](Uint<F> x, int n, std::uint32_t mask)
-                           TOFRAY_LAMBDA { return ((x >> n) & Uint<F>(mask)) | ((x & Uint<F>(mask)) << n); };
-  a = swapped(a, 1, 0x55555555u), a = swapped(a, 2, 0x33333333u), a = swapped(a, 4, 0x0f0f0f0fu), a = swapped(a, 8, 0x00ff00ffu);
-  return (a >> 16) | (a << 16);
-}
-
 /// A random permutation in which each bit is turned over, or not, by what stands below it: of the reversed word, so that halves of the unit
 /// interval change places, then halves of those … (Laine and Karras 2011; Burley 2020).
 template <class F>
@@ -45,7 +36,7 @@ TOFRAY_INLINE F unit(Uint<F> word) {
 /// Where in the sequence number `index` is once it is shuffled: numbers 0 to 2ⁿ − 1 stay together.
 template <class F>
 TOFRAY_INLINE Uint<F> shuffled(Uint<F> index, Uint<F> seed) {
-  return reversed<F>(turned_over<F>(reversed<F>(index), seed));
+  return reversed(turned_over<F>(reversed(index), seed));
 }
 
 /// @param shuffled  number of the point
@@ -53,8 +44,8 @@ TOFRAY_INLINE Uint<F> shuffled(Uint<F> index, Uint<F> seed) {
 template <class F>
 TOFRAY_INLINE void sobol_pair(Uint<F> shuffled, Uint<F> seed_u, Uint<F> seed_v, F& u, F& v) {
   // A coordinate is the reversed word; scrambling starts at its upper end, which is the word's lower one.
-  u = unit<F>(reversed<F>(turned_over<F>(shuffled, seed_u)));
-  v = unit<F>(reversed<F>(turned_over<F>(pascal<F>(shuffled), seed_v)));
+  u = unit<F>(reversed(turned_over<F>(shuffled, seed_u)));
+  v = unit<F>(reversed(turned_over<F>(pascal<F>(shuffled), seed_v)));
 }
 
 }  // namespace tofray::num

@@ -108,6 +108,7 @@ TOFRAY_TWIN_UNARY(Twin, TwinInt, to_int)
 TOFRAY_TWIN_UNARY(TwinInt, Twin, to_float)
 TOFRAY_TWIN_UNARY(TwinInt, TwinUint, to_uint)
 TOFRAY_TWIN_UNARY(TwinUint, TwinInt, to_signed)
+TOFRAY_TWIN_UNARY(TwinUint, TwinUint, reversed)
 #undef TOFRAY_TWIN_UNARY
 
 template <class H>

@@ -83,7 +83,7 @@ TOFRAY_INLINE Choice<F> choose(const ChoiceSeed<F>& seed, num::Uint<F> sample) {
   Choice<F> out;
   num::sobol_pair<F>(num::shuffled<F>(sample, w[0]), w[1], w[2], out.u, out.v);
   const num::Uint<F> other = num::shuffled<F>(sample, w[3]);
-  out.chance = num::unit<F>(num::reversed<F>(num::turned_over<F>(other, w[0] ^ w[2])));
+  out.chance = num::unit<F>(num::reversed(num::turned_over<F>(other, w[0] ^ w[2])));
   return out;
 }
 

@@ -22,9 +22,10 @@ TOFRAY_INLINE std::uint32_t first_of(int count) { return (1u << count) - 1u; }
 template <class F>
 struct MeshRaysApart {
   static constexpr int count = num::lanes<F>;
-  alignas(64) float origin[3][count], inverse[3][count], from_low[3][count], from_high[3][count];
+  alignas(64) float origin[3][count], inverse[3][count], from_near[3][count], from_far[3][count];
   alignas(64) float slope_x[count], slope_y[count], length[count];  ///< as of Sheared
   alignas(64) float shortest[count], t[count];
+  alignas(64) std::int32_t near[3][count];  ///< where in a node the sides of the boxes lie at which the ray comes in
   alignas(64) std::int32_t longest[count], number[count], triangle[count];
 };
 
@@ -35,8 +36,12 @@ TOFRAY_INLINE void take_apart(const MeshRay<F>& ray, F shortest, const MeshHit<F
   for (int k = 0; k < 3; ++k) {
     const F inverse = F(1.0f) / num::copy_sign(num::max(num::abs(d[k]), F(1e-30f)), d[k]);
     num::store(out.origin[k], ray.origin[k], n), num::store(out.inverse[k], inverse, n);
-    num::store(out.from_low[k], (ray.origin[k] + ray.slack) * inverse, n);
-    num::store(out.from_high[k], (ray.origin[k] - ray.slack) * inverse, n);
+    // Which side that is nobody can foresee: no branch may depend on it.
+    const auto back = inverse < F(0.0f);
+    const F from_low = (ray.origin[k] + ray.slack) * inverse, from_high = (ray.origin[k] - ray.slack) * inverse;
+    num::store(out.from_near[k], num::select(back, from_high, from_low), n);
+    num::store(out.from_far[k], num::select(back, from_low, from_high), n);
+    num::store(out.near[k], num::select(back, Int<F>((3 + k) * mesh_width), Int<F>(k * mesh_width)), n);
   }
   const Int<F> longest = longest_of(d);
   const auto is_x = longest == Int<F>(0), is_y = longest == Int<F>(1);
@@ -58,11 +63,9 @@ class MeshAlone {
     const int z = rays.longest[i], x = next_coordinate(z);
     along_ = {x, next_coordinate(x), z, F(rays.slope_x[i]), F(rays.slope_y[i]), F(rays.length[i])};
     for (int k = 0; k < 3; ++k) {
-      const bool back = rays.inverse[k][i] < 0;
       inverse_[k] = Eight(rays.inverse[k][i]);
-      from_near_[k] = Eight(back ? rays.from_high[k][i] : rays.from_low[k][i]);
-      from_far_[k] = Eight(back ? rays.from_low[k][i] : rays.from_high[k][i]);
-      near_[k] = (back ? 3 + k : k) * mesh_width, far_[k] = (back ? k : 3 + k) * mesh_width;
+      from_near_[k] = Eight(rays.from_near[k][i]), from_far_[k] = Eight(rays.from_far[k][i]);
+      near_[k] = rays.near[k][i], far_[k] = (3 + 2 * k) * mesh_width - near_[k];
       origin_[k] = F(rays.origin[k][i]);
     }
     shortest_ = Eight(rays.shortest[i]);

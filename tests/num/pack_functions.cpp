@@ -127,6 +127,7 @@ TOFRAY_INLINE bool whole_numbers(int which, const PackBlock& block) {
             const num::Four<F> four = num::gather_four(block.table, num::to_signed(at.ua() >> 24));
             for (int k = 0; k < 4; ++k) at.put(four.value[k], k);
           });
+    case 9: EACH(at.put(num::reversed(at.ua())); at.put(num::reversed(num::reversed(at.ub())), 1));
     default: return false;
   }
 }

@@ -95,7 +95,7 @@ void compare(PackFunctions machine, PackFunctions reference) {
       ++functions;
     }
   }
-  EXPECT_EQ(functions, 17 + 9 + 9 + 7 + 2);
+  EXPECT_EQ(functions, 17 + 10 + 9 + 7 + 2);
 }
 
 class Packs : public testing::TestWithParam<Isa> {};
