@@ -11,10 +11,11 @@ namespace tofray::shape {
 template <bool any, bool cut, class F>
 class MeshSquare {
  public:
-  /// @param of_tile  the axis is that of the tile's beam
+  /// @param of_tile    the axis is that of the tile's beam
+  /// @param triangles  so many it may meet
   TOFRAY_INLINE MeshSquare(const MeshForm& form, const Beam& of_tile, const F (&direction)[3], const F (&slope)[2], F shortest,
-                           Mask<F> wanted, MeshHit<F>& hit)
-      : form_(form), beam_(of_tile), shortest_(shortest), open_(wanted), hit_(hit) {
+                           Mask<F> wanted, int triangles, MeshHit<F>& hit)
+      : form_(form), beam_(of_tile), shortest_(shortest), open_(wanted), hit_(hit), left_(triangles) {
     for (int i = 0; i < 2; ++i) {
       const float least = num::lowest(num::select(wanted, slope[i], F(3e38f)));
       beam_.bound(beam_.side[i], least, num::highest(num::select(wanted, slope[i], F(-3e38f))));
@@ -29,9 +30,9 @@ class MeshSquare {
     see_how_far();
   }
 
-  /// From the root.
-  TOFRAY_INLINE void run() { go_down(0); }
-  TOFRAY_INLINE void run(const TileEntries& from) {
+  /// From the root. @return false: it met more triangles than a beam is good for, and what it found is not all
+  TOFRAY_INLINE bool run() { return go_down(0); }
+  TOFRAY_INLINE bool run(const TileEntries& from) {
     constexpr int n = num::lanes<F>;
     for (int first = 0; first < from.count; first += n) {
       const BeamBoxes<F> boxes{{from.low[0] + first, from.low[1] + first, from.low[2] + first},
@@ -41,29 +42,32 @@ class MeshSquare {
       if (from.count - first < n) met &= first_of(from.count - first);
       alignas(64) float nears[n];
       store_all(nears, near);
-      if (beam_.begin + at_least(nears[0] - beam_.begin) > far_) return;
+      if (beam_.begin + at_least(nears[0] - beam_.begin) > far_) return true;
       for (; met != 0; met &= met - 1) {
         const int i = __builtin_ctz(met);
         if (nears[i] > far_) continue;
-        go_down(from.child[first + i]);
-        if (any && !num::any(open_)) return;
+        if (!go_down(from.child[first + i])) return false;
+        if (any && !num::any(open_)) return true;
       }
     }
+    return true;
   }
+  /// The rays that look on.
+  [[nodiscard]] TOFRAY_INLINE Mask<F> open() const { return open_; }
 
  private:
   using Eight = num::Eight<F>;
-
-  TOFRAY_INLINE void go_down(std::int32_t child) {
+  TOFRAY_INLINE bool go_down(std::int32_t child) {
     int waiting = 0;
     while (true) {
       if (child < 0) {
         test(child);
+        if (left_ < 0) return false;
       } else {
         open(form_.nodes[child], waiting);
       }
       do {
-        if (waiting == 0) return;
+        if (waiting == 0) return true;
         child = stack_[--waiting].child;
       } while (stack_[waiting].near > far_);
     }
@@ -120,7 +124,9 @@ class MeshSquare {
     const MeshTriangles& block = form_.triangles[block_of(leaf)];
     Corners corners;
     auto changed = F(1.0f) < F(0.0f);
-    for (std::uint32_t left = triangles_in(block, corners) & first_of(count_of(leaf)); left != 0; left &= left - 1) {
+    const std::uint32_t met = triangles_in(block, corners) & first_of(count_of(leaf));
+    left_ -= __builtin_popcount(met);
+    for (std::uint32_t left = met; left != 0; left &= left - 1) {
       const int i = __builtin_ctz(left);
       const std::int32_t number = block.number[i], triangle = block_of(leaf) * block_width + i;
       const auto corner = [&](int c, int k) TOFRAY_LAMBDA { return F(corners.at[c][k][i]); };
@@ -157,19 +163,51 @@ class MeshSquare {
   bool has_others_;
   F depth_per_t_;
   float far_;
+  int left_;  ///< triangles that it may still meet
   MeshEntry stack_[most_mesh_stack];
 };
 
+/// Squares of a tile that meet more triangles than a beam is good for: sixteen rays alone take as long as a beam for some 150 that are in the
+/// caches. What is dense for one mostly is for the next. It changes no hit.
+class DenseSquares {
+ public:
+  /// Triangles that a beam may meet.
+  TOFRAY_INLINE int most_triangles() const { return found_ ? 100 : few_triangles; }
+  /// Whether the next one looks ray by ray at once.
+  TOFRAY_INLINE bool skips() { return left_-- > 0; }
+  TOFRAY_INLINE void add() {
+    left_ = found_ ? 1000 : 3;
+    found_ = true;
+  }
+
+  static constexpr int few_triangles = 256;
+
+ private:
+  int left_ = 0;
+  bool found_ = false;
+};
+
 /// Four rays in each of four rows, from ray number `at` on.
+/// @param dense  a square of the tile met more triangles than a beam is good for; the others look ray by ray
 template <bool any, bool cut, class F>
-TOFRAY_NOINLINE void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at) {
+TOFRAY_NOINLINE void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at,
+                                   DenseSquares& dense) {
   MeshHit<F> hit{num::load_square<F>(rays.far + at, TileRays::row), Int<F>(0x7fffffff), Int<F>(-1)};
-  const auto wanted = hit.t > F(0.0f);
+  auto wanted = hit.t > F(0.0f);
   if (num::any(wanted)) {
-    F direction[3], slope[2];
-    TileRays::load_square(rays.direction, 3, at, direction), TileRays::load_square(rays.slope, 2, at, slope);
+    MeshRay<F> ray{{F(form.origin[0]), F(form.origin[1]), F(form.origin[2])}, {}, F(form.slack)};
+    TileRays::load_square(rays.direction, 3, at, ray.direction);
     const F shortest = num::load_square<F>(rays.shortest + at, TileRays::row);
-    MeshSquare<any, cut, F>(form, beam, direction, slope, shortest, wanted, hit).run(entries);
+    bool alone = dense.skips();
+    if (!alone) {
+      F slope[2];
+      TileRays::load_square(rays.slope, 2, at, slope);
+      MeshSquare<any, cut, F> square(form, beam, ray.direction, slope, shortest, wanted, dense.most_triangles(), hit);
+      alone = !square.run(entries);
+      if (alone) dense.add();
+      wanted = square.open();
+    }
+    if (alone && num::any(wanted)) search_mesh<any>(form, ray, shortest, wanted, hit);
   }
   num::store_square(rays.t + at, TileRays::row, hit.t);
   num::store_square(rays.triangle + at, TileRays::row, num::from_bits(num::to_uint(hit.triangle)));
@@ -188,10 +226,13 @@ TOFRAY_NOINLINE void search_from_root(const MeshForm& form, const MeshRay<F>& ra
     return search_mesh<any>(form, ray, shortest, wanted, hit);
   Beam beam;
   beam.start(form), beam.go_along(axis, forward);
+  const auto run = [&](auto&& square) TOFRAY_LAMBDA {
+    if (!square.run()) search_mesh<any>(form, ray, shortest, square.open(), hit);
+  };
   if (form.cut == nullptr) {
-    MeshSquare<any, false, F>(form, beam, d, slope, shortest, wanted, hit).run();
+    run(MeshSquare<any, false, F>(form, beam, d, slope, shortest, wanted, DenseSquares::few_triangles, hit));
   } else {
-    MeshSquare<any, true, F>(form, beam, d, slope, shortest, wanted, hit).run();
+    run(MeshSquare<any, true, F>(form, beam, d, slope, shortest, wanted, DenseSquares::few_triangles, hit));
   }
 }
 
@@ -269,10 +310,11 @@ TOFRAY_INLINE void search_tile(const MeshForm& form, TileRays& rays) {
   if (make_beam<F>(form, rays, beam, far)) {
     TileEntries entries;
     find_entries<Square>(form.nodes, beam, far, entries);
+    DenseSquares dense;
     if (form.cut == nullptr) {
-      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, false, Square>(form, beam, entries, rays, at); });
+      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, false, Square>(form, beam, entries, rays, at, dense); });
     } else {
-      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, true, Square>(form, beam, entries, rays, at); });
+      each_square([&](int at) TOFRAY_LAMBDA { search_square<any, true, Square>(form, beam, entries, rays, at, dense); });
     }
   } else {
     each_square([&](int at) TOFRAY_LAMBDA { search_square_alone<any, Square>(form, rays, at); });
