@@ -6,9 +6,9 @@
 /// Many paths of a pack of pixels at once, for machines with lanes.                                          [theory: path-tracing]
 ///
 /// Of paths that go on side by side some end at each surface, and a pack is followed until the last of them has ended: from the third bounce
-/// on most of its lanes are empty. Here all paths of several samples, of both halves, go from surface to surface together, and those that go on close ranks
-/// before the next one. What each surface brings is kept, and added to the light path by path and surface by surface, as if they had been
-/// followed one after the other: not a bit of the sum changes.
+/// on most of its lanes are empty. Here all paths of several samples, of both halves, go from surface to surface together, and those that go
+/// on close ranks before the next one. What each surface brings is kept, and added to the light path by path and surface by surface, as if
+/// they had been followed one after the other: not a bit of the sum changes.
 namespace tofray::pipeline {
 
 /// Ways on of many paths, one after the other.

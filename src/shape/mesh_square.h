@@ -52,8 +52,8 @@ class MeshSquare {
     }
     return true;
   }
-  /// The rays that look on.
-  [[nodiscard]] TOFRAY_INLINE Mask<F> open() const { return open_; }
+  /// The rays that look for more.
+  [[nodiscard]] TOFRAY_INLINE Mask<F> looking() const { return open_; }
 
  private:
   using Eight = num::Eight<F>;
@@ -188,7 +188,7 @@ class DenseSquares {
 };
 
 /// Four rays in each of four rows, from ray number `at` on.
-/// @param dense  a square of the tile met more triangles than a beam is good for; the others look ray by ray
+/// @param dense  of the squares of the tile before it
 template <bool any, bool cut, class F>
 TOFRAY_NOINLINE void search_square(const MeshForm& form, const Beam& beam, const TileEntries& entries, TileRays& rays, int at,
                                    DenseSquares& dense) {
@@ -205,7 +205,7 @@ TOFRAY_NOINLINE void search_square(const MeshForm& form, const Beam& beam, const
       MeshSquare<any, cut, F> square(form, beam, ray.direction, slope, shortest, wanted, dense.most_triangles(), hit);
       alone = !square.run(entries);
       if (alone) dense.add();
-      wanted = square.open();
+      wanted = square.looking();
     }
     if (alone && num::any(wanted)) search_mesh<any>(form, ray, shortest, wanted, hit);
   }
@@ -227,7 +227,7 @@ TOFRAY_NOINLINE void search_from_root(const MeshForm& form, const MeshRay<F>& ra
   Beam beam;
   beam.start(form), beam.go_along(axis, forward);
   const auto run = [&](auto&& square) TOFRAY_LAMBDA {
-    if (!square.run()) search_mesh<any>(form, ray, shortest, square.open(), hit);
+    if (!square.run()) search_mesh<any>(form, ray, shortest, square.looking(), hit);
   };
   if (form.cut == nullptr) {
     run(MeshSquare<any, false, F>(form, beam, d, slope, shortest, wanted, DenseSquares::few_triangles, hit));
