@@ -18,7 +18,7 @@ constexpr int paths_together = 64;
 template <class F>
 TOFRAY_INLINE void follow(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
                           F vignetting, int sample, int samples, flow::Light<F>* halves) {
-  if constexpr (num::lanes < F >> 1) {
+  if constexpr (num::lanes<F> != 1) {
     const int at_once = PathLights<F>::rows(s, wanted) / 2;
     if (at_once > 0) {
       for (int i = 0; i < samples; i += at_once) {
