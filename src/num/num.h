@@ -207,7 +207,8 @@ TOFRAY_INLINE void store(std::uint16_t* to, std::int32_t a, int) { *to = static_
 TOFRAY_INLINE void store(std::uint8_t* to, std::int32_t a, int) { *to = static_cast<std::uint8_t>(a); }
 /// Lanes that have a bit, one after the other, to memory, in which what follows may be written over: up to as many values as there are lanes.
 TOFRAY_INLINE void store_dense(float* to, float a, std::uint32_t) { *to = a; }
-/// … and back into the lanes that have a bit; the others are 0. As many values as there are lanes may be read.
+/// Values that stand one after the other into the lanes that have a bit, in their order; the other lanes are 0. As many values as there are
+/// lanes may be read.
 template <class F>
 TOFRAY_INLINE F load_dense(const float* from, std::uint32_t bits) {
   return Memory<F>::load_dense(from, bits);
