@@ -13,23 +13,37 @@ namespace tofray::pipeline {
 /// Paths whose light is summed before it is added to that of others: a sum of some thousand floats would lose digits.
 constexpr int paths_together = 64;
 
-/// The light of some paths of each pixel, of either half: many at once where there are lanes to fill.
-/// @param sample, samples  the first of them, and how many
+/// The light of a step's paths of each pixel: of both halves and many at once where there are lanes to fill, else path by path.
+/// @param halves  what the light of either half is added to
 template <class F>
 TOFRAY_INLINE void follow(const Setup& s, int moment, F area, const power::Wanted& wanted, const Pixels& p, const Vertex<F>& first,
-                          F vignetting, int sample, int samples, flow::Light<F>* halves) {
+                          F vignetting, const PathsOfStep& paths, flow::Light<F>* halves) {
+  const auto together = [&](int from) TOFRAY_LAMBDA { return paths.count - from < paths_together ? paths.count - from : paths_together; };
   if constexpr (num::lanes<F> != 1) {
     const int at_once = PathLights<F>::rows(s, wanted) / 2;
     if (at_once > 0) {
-      for (int i = 0; i < samples; i += at_once) {
-        const int these = samples - i < at_once ? samples - i : at_once;
-        follow_paths<F>(s, moment, area, wanted, p, first, vignetting, sample + i, these, halves);
+      for (int from = 0; from < paths.count; from += paths_together) {
+        flow::Light<F> part[2];
+        power::clear(s.phasors, wanted, part[0]), power::clear(s.phasors, wanted, part[1]);
+        const int end = from + together(from);
+        for (int i = from; i < end; i += at_once) {
+          const int these = end - i < at_once ? end - i : at_once;
+          follow_paths<F>(s, moment, area, wanted, p, first, vignetting, paths.first + i, these, part);
+        }
+        for (int h = 0; h < 2; ++h) power::add_light(s.phasors, wanted, part[h], halves[h]);
       }
       return;
     }
   }
+  // One half after the other: of sums of both side by side, which it tries to pair, nvcc 13 takes ten minutes and 5 GB for GPUs from Blackwell on.
   for (int h = 0; h < 2; ++h)
-    for (int i = 0; i < samples; ++i) follow_path<F>(s, moment, area, wanted, p, first, vignetting, h, sample + i, halves[h]);
+    for (int from = 0; from < paths.count; from += paths_together) {
+      flow::Light<F> part;
+      power::clear(s.phasors, wanted, part);
+      const int end = from + together(from);
+      for (int i = from; i < end; ++i) follow_path<F>(s, moment, area, wanted, p, first, vignetting, h, paths.first + i, part);
+      power::add_light(s.phasors, wanted, part, halves[h]);
+    }
 }
 
 /// The lens of a sample within the pixels, or that of their middle.
@@ -65,13 +79,7 @@ TOFRAY_INLINE void bounce_pixels(const Setup& s, const Job& job, int item, const
       if (image.guide != nullptr && item == s.subpixel.count / 2 && time == image.times / 2 && m == 0)
         store_guide<F>(s, image, p, first.at);
       if (!num::any(first.at.found)) continue;
-      for (int from = 0; from < paths.count; from += paths_together) {
-        flow::Light<F> part[2];
-        power::clear(s.phasors, which, part[0]), power::clear(s.phasors, which, part[1]);
-        const int these = paths.count - from < paths_together ? paths.count - from : paths_together;
-        follow<F>(s, moment, area, which, p, first, vignetting, paths.first + from, these, part);
-        power::add_light(s.phasors, which, part[0], half[0]), power::add_light(s.phasors, which, part[1], half[1]);
-      }
+      follow<F>(s, moment, area, which, p, first, vignetting, paths, half);
     }
     power::sum_and_difference(s.phasors, which, half[0], half[1]);
     const Adding<F> how{share, item == 0, paths.kept, active};
