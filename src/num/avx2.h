@@ -174,7 +174,7 @@ struct DenseLanes {
     }
   }
 };
-inline constexpr DenseLanes dense_lanes;
+static constexpr DenseLanes dense_lanes;  // no symbol of its own, which a linker could hand to another kernel
 TOFRAY_INLINE __m256i eight_bytes(std::uint64_t bytes) { return _mm256_cvtepi8_epi32(_mm_cvtsi64_si128(static_cast<long long>(bytes))); }
 TOFRAY_INLINE void store_dense(float* to, F32x8 a, std::uint32_t bits) {
   _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(a.v, eight_bytes(dense_lanes.to[bits])));
