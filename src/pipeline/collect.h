@@ -12,7 +12,8 @@ namespace tofray::pipeline {
 template <class F>
 struct PackState {
   flow::Light<F> light;
-  bool undisturbed;  ///< `light` is that of what stands still, nothing that moves came between
+  bool undisturbed;       ///< `light` is that of what stands still, nothing that moves came between
+  flow::Place<F> before;  ///< where shadow rays end then
   effect::Exposure<F> exposure;
   F difference[flow::max_raw_frames];  ///< A−B of each raw frame [e⁻]
 };

@@ -89,25 +89,30 @@ TOFRAY_NOINLINE num::Mask<F> blocked_by_what_moves(const Culled& culled, const f
   return trace::blocked_parallel(culled, sun, p);
 }
 
-/// Shadow rays through what stands still and, if it can come between, what moves.
+/// Shadow rays of a pack of pixels at one moment.
 template <class F, class Candidates>
 struct ShadowRays {
   const Setup& s;
   Candidates& near;
   int moment;
-  bool still, moving;
-  flow::Place<F> p;  ///< a little before the surface
+  flow::Place<F> p;                  ///< a little before the surface
+  bool still = true, moving = true;  ///< whether what stands still, and what moves, can come between
+  bool known = false;                ///< of the only light: the ray from it, and where something that moves stands in its way
+  flow::Ray<F> from_light;
+  num::Mask<F> behind_moving;
+
+  TOFRAY_INLINE ShadowRays(const Setup& setup, Candidates& candidates, int now) : s(setup), near(candidates), moment(now) {}
 
   TOFRAY_INLINE const float* sun_direction() const { return s.scene.sun(moment); }
+  TOFRAY_INLINE bool sun_shines() const { return s.power.ambient == camera::AmbientLight::directional; }
   TOFRAY_INLINE num::Mask<F> of_light(int l) {
-    const flow::Ray<F> from_light = power::light_ray(s.lights[l], p);
-    near.look(moment, l, from_light, p.found);
+    if (!known) from_light = power::light_ray(s.lights[l], p), near.look(moment, l, from_light, p.found);
     num::Mask<F> dark = F(1.0f) < F(0.0f);
     if (still) dark = trace::blocked(near.still_from(s, l), from_light, p) | near.template behind_still_meshes<F>(l);
-    if (moving) {
-      dark = dark | blocked_by_what_moves<F>(near.moving_from(s, moment, l), from_light, p) | near.template behind_moving_meshes<F>(l);
-    }
-    return dark;
+    if (!moving) return dark;
+    return dark |
+           (known ? behind_moving
+                  : blocked_by_what_moves<F>(near.moving_from(s, moment, l), from_light, p) | near.template behind_moving_meshes<F>(l));
   }
   TOFRAY_INLINE num::Mask<F> of_sun() {
     near.look_along(s, moment, p);
@@ -120,6 +125,14 @@ struct ShadowRays {
              near.template behind_moving_meshes<F>(near.sun);
     }
     return dark;
+  }
+  /// Where something that moves keeps a light off.
+  TOFRAY_INLINE num::Mask<F> of_what_moves() {
+    still = false, behind_moving = F(1.0f) < F(0.0f);
+    for (int l = 0; l < s.scene.lights; ++l) behind_moving = behind_moving | of_light(l);
+    if (sun_shines()) behind_moving = behind_moving | of_sun();
+    still = true, known = s.scene.lights == 1 && !sun_shines();
+    return behind_moving & p.found;
   }
 };
 
@@ -146,19 +159,6 @@ TOFRAY_INLINE void light_up(const Setup& s, const power::Wanted& wanted, Shadows
                            : power::ambient_rate<F>(s.power, shadows.sun_direction(), p, shade, vignetting);
 }
 
-/// Whether something that moves keeps a light off any of the pixels.
-/// @param p  a little before the surface
-template <class F, class Candidates>
-TOFRAY_INLINE num::Mask<F> in_moving_shadow(const Setup& s, Candidates& near, int moment, const flow::Place<F>& p) {
-  ShadowRays<F, Candidates> shadows{s, near, moment, false, true, p};
-  num::Mask<F> dark = F(1.0f) < F(0.0f);
-  for (int l = 0; l < s.scene.lights; ++l) {
-    dark = dark | shadows.of_light(l);
-  }
-  if (s.power.ambient == camera::AmbientLight::directional) dark = dark | shadows.of_sun();
-  return dark & p.found;
-}
-
 /// Stages 1 and 2 from what a pack of pixels hits.
 ///
 /// Where it sees what stands still and nothing that moves keeps a light off that, its light is the same at all moments, and is kept.
@@ -166,13 +166,15 @@ TOFRAY_INLINE num::Mask<F> in_moving_shadow(const Setup& s, Candidates& near, in
 /// @param near   what the pixels can meet: still_from_camera(s), moving_from_camera(s, moment), and from each light. It knows moves(s);
 ///               any(mask), whether it is true for any pixel that goes the same way; can_be_shaded(s), false where nothing that moves can
 ///               stand before a light; look(…) and look_along(…), which are told of each shadow ray; and, where meshes are looked at by all
-///               pixels of a tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too
+///               pixels of a tile at once, what that found: behind_still_meshes(light), behind_moving_meshes(light), the sun being one, too;
+///               keeps_places: whether `before` lasts from one moment to the next
 /// @param still  what they would hit if nothing moved
+/// @param before  a little before that, once `undisturbed` is true
 /// @return false where `light` is as it was
 template <class F, class Candidates>
 TOFRAY_INLINE bool light_of_scene(const Setup& s, const Job& job, Candidates& near, const Moment& now, const Pixels& p,
                                   const flow::Ray<F>& ray, const flow::Hit<F>& still, const flow::Hit<F>& hit, F vignetting,
-                                  flow::Light<F>& light, bool& undisturbed) {
+                                  flow::Light<F>& light, bool& undisturbed, flow::Place<F>& before) {
   const bool moves = near.moves(s);
   if (job.out.gt_phase_flow_px != nullptr && now.sample == now.samples / 2) {
     const flow::Ray<F> ray_copy = ray;
@@ -182,16 +184,29 @@ TOFRAY_INLINE bool light_of_scene(const Setup& s, const Job& job, Candidates& ne
   }
   const bool same = !moves || !near.any(hit.facet != still.facet);
   const bool open = !moves || s.last_stage < Stage::power || !near.can_be_shaded(s);  // nothing that moves can come between
-  if (same && open && undisturbed && !now.truth) return false;
+  const bool again = same && undisturbed && !now.truth;
+  if (again && open) return false;
+  ShadowRays<F, Candidates> shadows(s, near, now.index);
+  bool calm = same;
+  if constexpr (Candidates::keeps_places) {
+    if (again) {
+      shadows.p = before;
+      calm = !near.any(shadows.of_what_moves());
+      if (calm) return false;
+    }
+  }
   const flow::Surface<F> surface = surface_seen(s, s.lens, ray, hit, vignetting);
-  const flow::Place<F> before = trace::a_little_before(s.scene, surface, ray);
-  const bool calm = same && (open || !near.any(in_moving_shadow(s, near, now.index, before)));
-  if (calm && undisturbed && !now.truth) return false;
+  if (!Candidates::keeps_places || !again) {
+    shadows.p = trace::a_little_before(s.scene, surface, ray);
+    calm = same && (open || !near.any(shadows.of_what_moves()));
+    if (calm && again) return false;
+    if (Candidates::keeps_places && calm) before = shadows.p;
+  }
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};
   if (s.last_stage >= Stage::power) {
-    light_up(s, wanted(s, now, calm), ShadowRays<F, Candidates>{s, near, now.index, true, moves && !calm, before}, ray, surface, vignetting,
-             light, radiometry);
+    shadows.moving = moves && !calm;
+    light_up(s, wanted(s, now, calm), shadows, ray, surface, vignetting, light, radiometry);
     // Where rays say how much of the sky a surface sees, it does not see all of it.
     if (bounces(s, Stage::trace) && s.power.ambient == camera::AmbientLight::uniform) light.ambient_rate = F(0.0f);
   }

@@ -64,6 +64,7 @@ struct TileCandidates {
     marks.words = marks.sums + trace::Marks::sums_of(can_move && others > most ? others : most);
   }
 
+  static constexpr bool keeps_places = can_move;
   TOFRAY_INLINE bool moves(const Setup&) const { return can_move; }
   template <class Mask>
   TOFRAY_INLINE bool any(Mask mask) const {
@@ -220,7 +221,8 @@ class TileSource {
 
   TOFRAY_INLINE bool find_light(const Moment& now, int q, const Pixels& p, const flow::Ray<F>& ray, F vignetting, PackState<F>& pack) {
     scratch_.near.pack = q;
-    return light_of_scene(s_, job_, scratch_.near, now, p, ray, scratch_.still[q], hits_[q], vignetting, pack.light, pack.undisturbed);
+    return light_of_scene(s_, job_, scratch_.near, now, p, ray, scratch_.still[q], hits_[q], vignetting, pack.light, pack.undisturbed,
+                          pack.before);
   }
 
  private:

@@ -83,6 +83,7 @@ struct WarpNear {
 
   TOFRAY_INLINE WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
 
+  static constexpr bool keeps_places = false;  // registers and memory of a thread cost more
   TOFRAY_INLINE bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
   TOFRAY_INLINE bool any(bool mask) const { return warp.any(mask); }
   TOFRAY_INLINE bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
@@ -156,7 +157,7 @@ class PixelSource {
   }
   TOFRAY_INLINE bool find_light(const pipeline::Moment& now, int, const Pixels& p, const flow::Ray<float>& ray, float vignetting,
                                 pipeline::PackState<float>& pack) {
-    return pipeline::light_of_scene(s_, job_, near_, now, p, ray, still_, hit_, vignetting, pack.light, pack.undisturbed);
+    return pipeline::light_of_scene(s_, job_, near_, now, p, ray, still_, hit_, vignetting, pack.light, pack.undisturbed, pack.before);
   }
 
  private:
