@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays from anywhere through the mesh of the scene bench-mesh, one thread: those along which light goes on from what a pico flexx sees, each in a
 // direction of its own, by themselves, as packs of neighbouring pixels, and by Embree's rtcIntersect1 where Embree is installed, in turn.
+//     bench_anywhere [TRIANGLES...] [ways N]      N rays from what each pixel sees, in place of one: `ways 31` are a million
 #include "num/avx2.h"
 #include "num/twin.h"
 // The number type comes first.
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -128,9 +130,8 @@ struct Embree {
 };
 #endif
 
-/// What a camera sees, and from there a matt surface's ways on.
-std::vector<OneRay> ways_on(const shape::MeshFree& form, const scene::Hierarchy& built) {
-  std::mt19937 random(1);
+/// What a camera sees, and from there one of a matt surface's ways on for each pixel.
+std::vector<OneRay> ways_on(const shape::MeshFree& form, const scene::Hierarchy& built, std::mt19937& random) {
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
   std::vector<OneRay> out;
   for (int y = 0; y < height; ++y)
@@ -168,17 +169,45 @@ std::vector<OneRay> ways_on(const shape::MeshFree& form, const scene::Hierarchy&
   return out;
 }
 
+/// Where a ray meets the mesh first, by each triangle in double precision: a ray whose volumes with all three edges have one sign passes inside.
+double by_each_triangle(const TriangleMesh& mesh, const OneRay& ray) {
+  using Vector = std::array<double, 3>;
+  const auto dot = [](const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto cross = [](const Vector& a, const Vector& b) {
+    return Vector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const Vector way{static_cast<double>(ray.way[0]), static_cast<double>(ray.way[1]), static_cast<double>(ray.way[2])};
+  double nearest = static_cast<double>(shape::never);
+  for (const auto& triangle : mesh.triangles) {
+    Vector corner[3];
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k)
+        corner[c][k] = static_cast<double>(mesh.vertices[static_cast<std::size_t>(triangle[c])][k]) - static_cast<double>(ray.from[k]);
+    const double u = dot(way, cross(corner[2], corner[1])), v = dot(way, cross(corner[0], corner[2])),
+                 w = dot(way, cross(corner[1], corner[0]));
+    if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) continue;
+    const double all = u + v + w, t = (u * dot(corner[0], way) + v * dot(corner[1], way) + w * dot(corner[2], way)) / all;
+    if (all != 0 && t > 0 && t < nearest) nearest = t;
+  }
+  return nearest;
+}
+
 double median(std::vector<double> times) {
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
 }
 
-void measure(double wanted) {
+void measure(double wanted, int ways) {
   const TriangleMesh mesh = world(wanted);
   const scene::Hierarchy built = scene::build_hierarchy(mesh);
   const shape::Mesh placed = shape::Mesh::placed(built, {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}});
   const shape::MeshFree form = shape::free_of(placed);
-  const std::vector<OneRay> rays = ways_on(form, built);
+  std::mt19937 random(1);
+  std::vector<OneRay> rays;
+  for (int i = 0; i < ways; ++i) {
+    const std::vector<OneRay> more = ways_on(form, built, random);
+    rays.insert(rays.end(), more.begin(), more.end());
+  }
   std::vector<float> own(rays.size()), packs(rays.size()), other(rays.size());
   std::vector<double> times, pack_times, other_times;
 #if defined(TOFRAY_HAS_EMBREE)
@@ -196,22 +225,37 @@ void measure(double wanted) {
   fmt::print("each by itself: {:.2f} M/s; packs of 8: {:.2f}, {} the same bits\n", count / median(times) * 1e-6,
              count / median(pack_times) * 1e-6, std::memcmp(own.data(), packs.data(), 4 * own.size()) == 0 ? "all" : "NOT all");
 #if defined(TOFRAY_HAS_EMBREE)
-  int met = 0, same = 0;
+  const auto alike = [](float a, float b) { return (a < shape::never) == (b < shape::never) && (a == b || std::abs(a - b) < 1e-4f); };
+  int met = 0, same = 0, own_right = 0, other_right = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const bool hit = other[i] < shape::never;
-    met += hit, same += hit == (own[i] < shape::never) && (!hit || std::abs(own[i] - other[i]) < 1e-4f);
+    met += other[i] < shape::never, same += alike(own[i], other[i]);
+    if (alike(own[i], other[i])) continue;
+    const auto right = static_cast<float>(by_each_triangle(mesh, rays[i]));
+    own_right += alike(own[i], right), other_right += alike(other[i], right);
   }
   fmt::print("Embree's rtcIntersect1: {:.2f} M/s; ratio {:.2f}\n", count / median(other_times) * 1e-6, median(other_times) / median(times));
-  fmt::print("{} meet something; {} of all meet the same\n", met, same);
+  fmt::print(
+      "{} meet something; {} of all meet the same; of the other {}, each triangle in double precision says as this {}, as Embree {}\n", met,
+      same, static_cast<int>(rays.size()) - same, own_right, other_right);
 #endif
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  if (count > 1) {
-    for (int i = 1; i < count; ++i) measure(std::atof(words[i]));
-  } else {
-    for (const double triangles : {1e5, 1.5e6}) measure(triangles);
+  std::vector<double> sizes;
+  int ways = 1;
+  for (int i = 1; i < count; ++i) {
+    const bool is_ways = std::strcmp(words[i], "ways") == 0;
+    if (is_ways && i + 1 < count) {
+      ways = std::max(1, std::atoi(words[++i]));
+    } else if (std::atof(words[i]) >= 1 && !is_ways) {
+      sizes.push_back(std::atof(words[i]));
+    } else {
+      fmt::print(stderr, "bench_anywhere: {}: expected numbers of triangles, and `ways N`\n", words[i]);
+      return 2;
+    }
   }
+  if (sizes.empty()) sizes = {1e5, 1.5e6};
+  for (const double triangles : sizes) measure(triangles, ways);
 }
