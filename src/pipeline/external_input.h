@@ -158,13 +158,17 @@ TOFRAY_NOINLINE void store_direct_levels(const Setup& s, float* to, const flow::
 template <class F>
 class ArraySource {
  public:
-  TOFRAY_INLINE ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p) : s_(s), job_(job), in_(in), pixels_(p) {}
+  TOFRAY_INLINE ArraySource(const Setup& s, const Job& job, const Input& in, const Pixels& p, const Pixels& next)
+      : s_(s), job_(job), in_(in), pixels_(p), next_(next) {}
 
   TOFRAY_INLINE int moments() const { return in_.moments; }
   static constexpr bool once() { return false; }
   TOFRAY_INLINE int packs() const { return 1; }
   TOFRAY_INLINE Pixels pixels(int) const { return pixels_; }
-  TOFRAY_INLINE Pixels ahead(int) const { return {0, 0}; }
+  TOFRAY_INLINE Pixels ahead(int) const {
+    camera::fetch_lens<F>(s_.lens, next_);
+    return next_;
+  }
   TOFRAY_INLINE PackState<F>& pack(int) { return pack_; }
   static constexpr bool blurs = false, inlined = true;
   TOFRAY_INLINE flow::Light<F>& mean(int) { return pack_.light; }
@@ -215,7 +219,7 @@ class ArraySource {
   const Setup& s_;
   const Job& job_;
   const Input& in_;
-  Pixels pixels_;
+  Pixels pixels_, next_;
   PackState<F> pack_;
 };
 
@@ -252,12 +256,12 @@ TOFRAY_INLINE void decode_pixels(const Setup& s, const Job& job, const Recording
 }
 
 template <class F>
-TOFRAY_INLINE void enter(const Setup& s, const Job& job, const Input& in, const Pixels& p) {
+TOFRAY_INLINE void enter(const Setup& s, const Job& job, const Input& in, const Pixels& p, const Pixels& next) {
   if (in.entry == Stage::depth) {
     decode_pixels<F>(s, job, in.recording, p);
     return;
   }
-  ArraySource<F> source(s, job, in, p);
+  ArraySource<F> source(s, job, in, p, next);
   run_pipeline<F>(s, job, source);
 }
 

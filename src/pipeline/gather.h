@@ -44,9 +44,10 @@ struct Growing {
 template <class F>
 struct Adding {
   float share;
-  bool first;           ///< nothing was added before: the share is all there is
-  float kept;           ///< what the light that was there before counts
-  num::Mask<F> active;  ///< pixels that get more; the others keep what they have
+  bool first;              ///< nothing was added before: the share is all there is
+  float kept;              ///< what the light that was there before counts
+  num::Mask<F> active;     ///< pixels that get more; the others keep what they have
+  std::int32_t ahead = 0;  ///< how far from these pixels those are that come next; 0: not known
 };
 template <class F>
 TOFRAY_NOINLINE void gather_planes(const Setup& s, const Growing& image, const Pixels& p, std::int64_t at, const F* values, int planes,
@@ -59,6 +60,7 @@ TOFRAY_NOINLINE void gather_planes(const Setup& s, const Growing& image, const P
       sum = num::select(how.active, num::fma(values[plane], F(how.share), before * F(how.kept)), before);
     }
     num::store(image.values + at, sum, p.count);
+    if (how.ahead != 0) num::fetch_to<F>(image.values + at + how.ahead, 0, p.count);
   }
 }
 /// Adds a share of a light to the image. (What is handed to a function lies in memory: that is what the image keeps, and not all of a

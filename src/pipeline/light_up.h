@@ -200,7 +200,7 @@ TOFRAY_INLINE bool light_of_scene(const Setup& s, const Job& job, Candidates& ne
     shadows.p = trace::a_little_before(s.scene, surface, ray);
     calm = same && (open || !near.any(shadows.of_what_moves()));
     if (calm && again) return false;
-    if (Candidates::keeps_places && calm) before = shadows.p;
+    if (Candidates::keeps_places && calm && !now.whole) before = shadows.p;
   }
   undisturbed = calm;
   flow::Radiometry<F> radiometry{F(0.0f), F(0.0f), F(0.0f)};

@@ -66,9 +66,10 @@ TOFRAY_INLINE bool find_light(const Setup& s, const Job& job, Source& source, co
 /// What a sample within the pixels adds to the light image: at one time, or where something moves at all of them at once.
 /// \tparam blurs  as of the source
 template <bool blurs, class F>
-TOFRAY_INLINE void gather(const Setup& s, const Job& job, const Moment& now, bool once, const Pixels& p, const flow::Light<F>& light) {
+TOFRAY_INLINE void gather(const Setup& s, const Job& job, const Moment& now, bool once, const Pixels& p, const Pixels& next,
+                          const flow::Light<F>& light) {
   const Growing image{job.light.before, job.light.values};
-  const Adding<F> how{job.gather.share, job.gather.first != 0, 1.0f, F(0.0f) < F(1.0f)};
+  const Adding<F> how{job.gather.share, job.gather.first != 0, 1.0f, F(0.0f) < F(1.0f), next.count > 0 ? next.index - p.index : 0};
   if (blurs && now.whole && job.light.times > 1) {
     gather_all_times<F>(s, image, p, job.light.times, light, how, once);
   } else {
@@ -114,7 +115,7 @@ TOFRAY_INLINE void run_pipeline(const Setup& s, const Job& job, Source& source) 
       if (!find_light(s, job, source, now, q, view, pack)) continue;  // stages 1 and 2
       const flow::Light<F>& light = is_averaged<Source>(now) ? source.mean(q) : pack.light;
       if (job.gather.on != 0) {
-        gather<Source::blurs, F>(s, job, now, source.once(), p, light);
+        gather<Source::blurs, F>(s, job, now, source.once(), p, moment == 0 ? source.ahead(q) : Pixels{0, 0}, light);
       } else {
         expose(s, job, source, now, q, view, light, pack);  // stages 3 and 4
       }

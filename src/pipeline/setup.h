@@ -63,10 +63,11 @@ TOFRAY_INLINE bool keeps_edges(FilterKind filter) { return filter == FilterKind:
 /// Whether stages 1 and 2 end in the light image, and what they add to it.
 struct Gather {
   std::int32_t on;
-  std::int32_t first;          ///< nothing was added before
-  float share;                 ///< of the light that is found
-  std::int32_t begins, ends;   ///< a tile takes its samples one after the other: this is the first of them, the last
-  const std::int32_t* middle;  ///< [height][width] object that the middle of each pixel sees, or null: not asked for
+  std::int32_t first;            ///< nothing was added before
+  float share;                   ///< of the light that is found
+  std::int32_t begins, ends;     ///< a tile takes its samples one after the other: this is the first of them, the last
+  const std::int32_t* middle;    ///< [height][width] object that the middle of each pixel sees, or null: not asked for
+  const camera::LensView* next;  ///< of the tile's next sample; null: it has none
   bool operator==(const Gather&) const = default;
 };
 

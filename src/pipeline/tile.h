@@ -197,7 +197,11 @@ class TileSource {
   TOFRAY_INLINE int packs() const { return max_packs<F>; }
   TOFRAY_INLINE Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }
   TOFRAY_INLINE Pixels ahead(int q) const {
-    camera::fetch_lens<F>(s_.lens, pack_at<F>(s_.lens, next_tile_, q));
+    if (job_.gather.next != nullptr) {
+      camera::fetch_lens<F>(*job_.gather.next, pixels(q));
+    } else {
+      camera::fetch_lens<F>(first_lens(), pack_at<F>(s_.lens, next_tile_, q));
+    }
     const Pixels next = q + 1 < max_packs<F> ? pixels(q + 1) : Pixels{0, 0};
     return next.count > 0 ? next : pack_at<F>(s_.lens, next_tile_, 0);
   }
@@ -226,6 +230,10 @@ class TileSource {
   }
 
  private:
+  /// Of a tile's first sample.
+  TOFRAY_INLINE const camera::LensView& first_lens() const {
+    return job_.gather.on != 0 && s_.subpixel.lens != nullptr ? s_.subpixel.lens[0] : s_.lens;
+  }
   TOFRAY_INLINE bool has_sun() const { return s_.power.ambient == camera::AmbientLight::directional; }
   /// Whether nothing that moves is in view at any moment, and nothing that moves can come before a light: then one moment is as good as all.
   TOFRAY_INLINE bool is_calm() {

@@ -42,6 +42,9 @@ Isa best_isa() {
   return best;
 }
 
+/// Whether a step adds a sample's light to the light image.
+bool is_sample(const pipeline::Step& step) { return step.part == pipeline::Part::light && step.pass == pipeline::pass<pipeline::FromRays>; }
+
 std::int64_t rays_of(const pipeline::Step& step, const pipeline::Setup& s) { return pipeline::rays_of(step.pass, s, step.item); }
 
 }  // namespace
@@ -146,16 +149,25 @@ void Cpu::run_step(const pipeline::Step& step, const Work& work) {
   });
 }
 
-void Cpu::run_samples(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job) {
+void Cpu::run_by_tiles(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job,
+                       const pipeline::Input& collected) {
   if (steps.empty()) return;
+  const auto samples = static_cast<std::size_t>(std::count_if(steps.begin(), steps.end(), is_sample));
   pool_->runner.for_each_tile(pieces_of(steps.front(), setup), [&](int index, void* scratch) {
     pipeline::Setup own_setup = setup;
-    for (const pipeline::Step& step : steps) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
       if (stopped()) return void(gave_up_ = true);
+      const pipeline::Step& step = steps[i];
       pipeline::Job own_job = job;
-      pipeline::take_step(step, own_setup, own_job);
-      own_job.gather.begins = &step == &steps.front(), own_job.gather.ends = &step == &steps.back();
-      const Work work{&own_setup, &own_job, nullptr, step.item};
+      if (i < samples) {
+        pipeline::take_step(step, own_setup, own_job);
+        own_job.gather.begins = i == 0, own_job.gather.ends = i + 1 == samples;
+        if (i + 1 < samples) own_job.gather.next = &setup.subpixel.lens[steps[i + 1].item];
+      } else {
+        own_setup.lens = setup.lens;
+        pipeline::take_step(step, own_setup, own_job);
+      }
+      const Work work{&own_setup, &own_job, i < samples ? nullptr : &collected, step.item};
       kernel_(&work, step.pass, index, scratch);
       if (progress_ != nullptr) progress_->done += rays_of(step, own_setup);
     }
@@ -209,20 +221,21 @@ void Cpu::run_steps(const pipeline::Setup& setup, const pipeline::Job& job, cons
     each_step([&](const pipeline::Step& step) { all += rays_of(step, setup) * pieces_of(step, setup); });
     progress_->done = 0, progress_->total = all;
   }
-  std::vector<pipeline::Step> samples;
+  std::vector<pipeline::Step> by_tiles;
   pipeline::Job with_image = job;
   with_image.light = image;
-  const auto run_samples_so_far = [&] { run_samples(samples, setup, with_image), samples.clear(); };
+  const auto run_so_far = [&] { run_by_tiles(by_tiles, setup, with_image, collected), by_tiles.clear(); };
   each_step([&](const pipeline::Step& step) {
-    if (step.part == pipeline::Part::light && step.pass == pipeline::pass<pipeline::FromRays>) return samples.push_back(step);
-    run_samples_so_far();
+    const bool collects = step.part == pipeline::Part::collect && step.pass == pipeline::pass<pipeline::FromArrays>;
+    if (is_sample(step) || (collects && !by_tiles.empty())) return by_tiles.push_back(step);
+    run_so_far();
     if (step.part == pipeline::Part::all) return run_step(step, {&setup, &job, input, step.item});
     pipeline::Setup own_setup = setup;
     pipeline::Job own_job = with_image;
     pipeline::take_step(step, own_setup, own_job);
     run_step(step, {&own_setup, &own_job, step.part == pipeline::Part::collect ? &collected : input, step.item});
   });
-  run_samples_so_far();
+  run_so_far();
 }
 
 }  // namespace tofray::backend

@@ -56,9 +56,10 @@ class Cpu final : public Engine {
   };
   void run_steps(const pipeline::Setup& setup, const pipeline::Job& job, const pipeline::Input* input, const Light& light);
   void run_step(const pipeline::Step& step, const Work& work);
-  /// Steps that add samples within the pixels to the light image, tile by tile: a tile reads and writes its own pixels alone, and what it
-  /// adds to, at each time of each raw frame, then stays in the caches from one sample to the next.
-  void run_samples(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job);
+  /// Steps that add samples within the pixels to the light image and, where nothing comes between, what collects its light, tile by tile: a
+  /// tile reads and writes its own pixels alone, and what it adds to, at each time of each raw frame, stays in the caches from one to the next.
+  void run_by_tiles(const std::vector<pipeline::Step>& steps, const pipeline::Setup& setup, const pipeline::Job& job,
+                    const pipeline::Input& collected);
   [[nodiscard]] bool stopped() const { return progress_ != nullptr && progress_->stop; }
 
   Isa isa_;

@@ -57,10 +57,12 @@ void run_tile(const Work& work, int index, void* scratch) {
 /// The pixels of a tile, pack by pack.
 template <class P>
 TOFRAY_INLINE void each_pack_of_tile(const PassWork& work, int index) {
-  const Tile tile = tile_at(work.s.lens, index);
+  const camera::LensView& lens = work.s.lens;
+  const Tile tile = tile_at(lens, index), next_tile = tile_at(lens, index + 1);
   for (int q = 0; q < max_packs<F>; ++q) {
-    const Pixels p = pack_at<F>(work.s.lens, tile, q);
-    if (p.count > 0) P::template pixels<F>(work, p);
+    const Pixels p = pack_at<F>(lens, tile, q), after = q + 1 < max_packs<F> ? pack_at<F>(lens, tile, q + 1) : Pixels{0, 0};
+    if (p.count == 0) continue;
+    P::template pixels<F>(PassWork{work.s, work.job, work.input, work.item, after.count > 0 ? after : pack_at<F>(lens, next_tile, 0)}, p);
   }
 }
 

@@ -15,7 +15,7 @@ struct FromArrays {
 
   template <class F>
   TOFRAY_INLINE static void pixels(const PassWork& w, const Pixels& p) {
-    enter<F>(w.s, w.job, *w.input, p);
+    enter<F>(w.s, w.job, *w.input, p, w.next);
   }
 };
 

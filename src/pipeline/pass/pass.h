@@ -47,6 +47,7 @@ struct PassWork {
   const Job& job;
   const Input* input;  ///< what came from elsewhere, or is in the light image
   std::int32_t item;   ///< which sample of the pixel, which kernel of the lens, which round of paths, whether the range is a filter's
+  Pixels next{0, 0};   ///< those that come after, whose memory may be fetched meanwhile; count 0: not known
 };
 
 }  // namespace tofray::pipeline
