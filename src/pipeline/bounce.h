@@ -35,7 +35,7 @@ TOFRAY_INLINE void follow(const Setup& s, int moment, F area, const power::Wante
       return;
     }
   }
-  // One half after the other: of sums of both side by side, which it tries to pair, nvcc 13 takes ten minutes and 5 GB for GPUs from Blackwell on.
+  // One half after the other: of sums of both side by side, which it tries to pair, nvcc 13 takes ten minutes and 5 GB for compute capability 12.
   for (int h = 0; h < 2; ++h)
     for (int from = 0; from < paths.count; from += paths_together) {
       flow::Light<F> part;

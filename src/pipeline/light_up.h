@@ -187,15 +187,14 @@ TOFRAY_INLINE bool light_of_scene(const Setup& s, const Job& job, Candidates& ne
   const bool again = same && undisturbed && !now.truth;
   if (again && open) return false;
   ShadowRays<F, Candidates> shadows(s, near, now.index);
-  bool calm = same;
   if constexpr (Candidates::keeps_places) {
     if (again) {
       shadows.p = before;
-      calm = !near.any(shadows.of_what_moves());
-      if (calm) return false;
+      if (!near.any(shadows.of_what_moves())) return false;
     }
   }
   const flow::Surface<F> surface = surface_seen(s, s.lens, ray, hit, vignetting);
+  bool calm = false;
   if (!Candidates::keeps_places || !again) {
     shadows.p = trace::a_little_before(s.scene, surface, ray);
     calm = same && (open || !near.any(shadows.of_what_moves()));

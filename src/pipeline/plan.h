@@ -89,7 +89,7 @@ TOFRAY_INLINE Input from_light_image(const flow::LightImage& image) {
 TOFRAY_INLINE void take_image_step(const Step& step, Job& job) {
   step.light.all.place(job.light.values, job.light.before);
   step.light.indirect.place(job.light.indirect, job.light.indirect_before);
-  if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, 1, 1, nullptr, nullptr};
+  if (step.part == Part::light) job.gather = {1, step.item == 0, 1.0f, 1, nullptr, nullptr};
 }
 /// Puts what any step has of its own into the settings of its frame, those of the pass that begins with rays included.
 TOFRAY_INLINE void take_step(const Step& step, Setup& s, Job& job) {

@@ -65,9 +65,9 @@ struct Gather {
   std::int32_t on;
   std::int32_t first;            ///< nothing was added before
   float share;                   ///< of the light that is found
-  std::int32_t begins, ends;     ///< a tile takes its samples one after the other: this is the first of them, the last
+  std::int32_t begins;           ///< a tile takes its samples one after the other: this is the first of them
   const std::int32_t* middle;    ///< [height][width] object that the middle of each pixel sees, or null: not asked for
-  const camera::LensView* next;  ///< of the tile's next sample; null: it has none
+  const camera::LensView* next;  ///< of the tile's next sample; null: this is the last
   bool operator==(const Gather&) const = default;
 };
 

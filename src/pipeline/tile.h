@@ -192,7 +192,7 @@ class TileSource {
   TOFRAY_INLINE bool once() const { return can_move && scratch_.once; }
   /// What is left to do once all pixels of the tile have their light.
   TOFRAY_INLINE void end() {
-    if (can_move && once() && job_.gather.ends != 0) spread(job_.light.values);
+    if (can_move && once() && job_.gather.next == nullptr) spread(job_.light.values);
   }
   TOFRAY_INLINE int packs() const { return max_packs<F>; }
   TOFRAY_INLINE Pixels pixels(int q) const { return pack_at<F>(s_.lens, tile_, q); }

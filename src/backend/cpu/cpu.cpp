@@ -159,14 +159,10 @@ void Cpu::run_by_tiles(const std::vector<pipeline::Step>& steps, const pipeline:
       if (stopped()) return void(gave_up_ = true);
       const pipeline::Step& step = steps[i];
       pipeline::Job own_job = job;
-      if (i < samples) {
-        pipeline::take_step(step, own_setup, own_job);
-        own_job.gather.begins = i == 0, own_job.gather.ends = i + 1 == samples;
-        if (i + 1 < samples) own_job.gather.next = &setup.subpixel.lens[steps[i + 1].item];
-      } else {
-        own_setup.lens = setup.lens;
-        pipeline::take_step(step, own_setup, own_job);
-      }
+      if (i == samples) own_setup.lens = setup.lens;
+      pipeline::take_step(step, own_setup, own_job);
+      if (i < samples) own_job.gather.begins = i == 0;
+      if (i + 1 < samples) own_job.gather.next = &setup.subpixel.lens[steps[i + 1].item];
       const Work work{&own_setup, &own_job, i < samples ? nullptr : &collected, step.item};
       kernel_(&work, step.pass, index, scratch);
       if (progress_ != nullptr) progress_->done += rays_of(step, own_setup);

@@ -83,7 +83,7 @@ struct WarpNear {
 
   TOFRAY_INLINE WarpNear(Warp& w, const flow::Bounds* view) : warp(w), culling(view != nullptr), from_camera(view) {}
 
-  static constexpr bool keeps_places = false;  // registers and memory of a thread cost more
+  static constexpr bool keeps_places = false;  // it would take registers of each thread
   TOFRAY_INLINE bool moves(const Setup& s) const { return can_move && s.scene.moments > 0; }
   TOFRAY_INLINE bool any(bool mask) const { return warp.any(mask); }
   TOFRAY_INLINE bool can_be_shaded(const Setup&) const { return true; }  // known once the rays to the lights are
